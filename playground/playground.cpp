@@ -469,7 +469,8 @@ std::optional<double> theory_Z(const Simulation& simulation) {
   const Scene& scene = simulation.scene();
   const Disks& disks = simulation.disks();
   const double eta = scene.packing_fraction();
-  if (disks.count() < 2 || !why_no_Z(scene.effects).empty() || scene.effects.square_well || !(eta <= 0.69)) return std::nullopt;
+  if (disks.count() < 2 || !why_no_Z(scene.effects).empty() || !scene.effects.potential_steps().empty() || !(eta <= 0.69))
+    return std::nullopt;
   if (std::adjacent_find(disks.radius.begin(), disks.radius.end(), std::not_equal_to<>()) != disks.radius.end())
     return std::nullopt;
   const bool periodic = scene.box.periodic(0) && scene.box.periodic(1);

@@ -85,6 +85,7 @@ time = 1.0
 """
 # Tables whose keys need each other: an error about one is only seen where the others are right.
 TOGETHER = ["growth={ rate = 0.01 }", "thermostat={ temperature = 1.0, rate = 0.1 }", "square_well={ width = 1.5, depth = 1.0 }",
+            "stepped_potential={ steps = [{ width = 1.2, energy = 1.0 }] }",
             "brownian={ temperature = 1.0, rate = 0.1 }", "non_additivity={ delta = -0.1 }", "run.sample_log={ base = 1.3, per_block = 50, block = 1.0 }"]
 NO_KEY = "qqqqqqqqqqqqqqqq"
 
@@ -105,7 +106,7 @@ def scene_keys():
         rows, inner = "", {}
         for key in keys_of(path):
             at = f"{path}.{key}" if path else key
-            if at in ("disks", "obstacles"):
+            if at in ("disks", "obstacles", "stepped_potential.steps"):
                 at += ".0"
             elif at == "obstacles.0.segment":
                 at = "obstacles.1.segment"

@@ -117,6 +117,18 @@ struct SquareWell {
   double depth = 0.0;  ///< energy; neutral: 0
 };
 
+/// One step of a stepped pair potential.
+struct PotentialStep {
+  double width = 0.0;   ///< outer over hard diameter, > 1
+  double energy = 0.0;  ///< potential energy of a pair nearer than that, and not within a narrower step; energy
+};
+
+/// A stepped pair potential round the hard core of every disk: the [stepped_potential] table. It is neutral where the energies of
+/// all steps are 0.
+struct SteppedPotential {
+  std::vector<PotentialStep> steps = {};  ///< at least one; their widths rise
+};
+
 /// Every velocity decays as dv/dt = -rate v: the [drag] table.
 struct Drag {
   double rate = 0.0;  ///< 1 / time, >= 0; neutral: 0
@@ -152,6 +164,7 @@ struct Effects {
   std::optional<Brownian> brownian = {};
   std::optional<Shear> shear = {};
   std::optional<SquareWell> square_well = {};
+  std::optional<SteppedPotential> stepped_potential = {};
   std::optional<Drag> drag = {};
   std::optional<NonAdditivity> non_additivity = {};
 
@@ -173,6 +186,9 @@ struct Effects {
   [[nodiscard]] double shear_rate() const;
   /// Returns kT of the bath that redraws velocities, of single disks or of all; empty without a bath.
   [[nodiscard]] std::optional<double> bath_temperature() const;
+  /// Returns the steps of the pair potential beyond the hard core, of [stepped_potential] or [square_well], the innermost first.
+  /// Neighbouring steps of one energy are one step, and the last has another energy than 0. Empty where disks are but hard.
+  [[nodiscard]] std::vector<PotentialStep> potential_steps() const;
   /// Returns the rate at which all velocities decay; 1 / time, 0 without drag.
   [[nodiscard]] double drag_rate() const;
 };

@@ -50,8 +50,10 @@ struct State {
   Eigen::VectorXd spins = {};         ///< N angular velocities, 1 / time, counter-clockwise; length 0 where disks are smooth
   double scale = 1.0;                 ///< radii are scale * Disks::radius
   std::vector<WallState> walls = {};  ///< left, right, bottom, top; empty where none of them moves
-  std::uint64_t bonds = 0;            ///< number of pairs within each other's square well
-  double shear_displacement = 0.0;    ///< offset of the images above from those below, in [0, length along x)
+  std::uint64_t bonds = 0;            ///< number of pairs within each other's square well, or within the outermost step
+  /// Number of pairs in each of Effects::potential_steps(); empty where there are none.
+  std::vector<std::uint64_t> pairs_in_steps = {};
+  double shear_displacement = 0.0;  ///< offset of the images above from those below, in [0, length along x)
 };
 
 /// Returns the scene's box with its walls where the state has them.
@@ -105,7 +107,7 @@ struct Counts {
   std::uint64_t other = 0;       ///< bookkeeping without physics: cell crossings of an engine, steps of a fixed-step method
   std::uint64_t stale = 0;       ///< stale predictions: another collision had overtaken them
   std::uint64_t obstacle = 0;    ///< collisions with an obstacle
-  std::uint64_t well = 0;        ///< passages of the edge of a square well, and bounces there
+  std::uint64_t well = 0;        ///< passages of the edges of square wells and of steps of the potential, and bounces there
   std::uint64_t thermostat = 0;  ///< velocities redrawn by a thermostat, by tumbles or by Brownian motion
   Numerics numerics;
 

@@ -125,7 +125,7 @@ class State:
         spins = core.spins if len(core.spins) else None
         remainders = core.remainders if len(core.remainders) else None
         arrays = tuple(None if a is None else np.array(a) for a in (core.positions, core.velocities, core.images, spins))
-        return _unpickled, (*arrays, core.time, core.scale, core.walls, core.bonds, core.shear_displacement, remainders)
+        return _unpickled, (*arrays, core.time, core.scale, core.walls, core.bonds, core.shear_displacement, remainders, core.pairs_in_steps)
 
 
 def _unpickled(*arguments: Any) -> State:

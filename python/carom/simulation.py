@@ -470,7 +470,7 @@ class Simulation:
         """Changes what acts on the disks from now on, by a key of the scene: `sim.set("gravity.acceleration", (0, -1))`.
 
         Time, totals and random numbers go on. Whatever acts can be changed: collision, gravity, walls, obstacles, growth, thermostat,
-        tumbling, brownian, shear, square_well, drag, non_additivity; a dict changes several keys at once. A table whose value is None no longer acts.
+        tumbling, brownian, shear, square_well, stepped_potential, drag, non_additivity; a dict changes several keys at once. A table whose value is None no longer acts.
 
         Raises:
             SceneError: where the scene, as it would begin now, is wrong. Then nothing is changed.
@@ -584,7 +584,7 @@ class Simulation:
 
 
 #: Tables of a scene that say what acts on the disks.
-_EFFECTS = ("collision", "gravity", "walls", "obstacles", "growth", "thermostat", "tumbling", "brownian", "shear", "square_well", "drag", "non_additivity")
+_EFFECTS = ("collision", "gravity", "walls", "obstacles", "growth", "thermostat", "tumbling", "brownian", "shear", "square_well", "stepped_potential", "drag", "non_additivity")
 
 
 def _put(tables: dict[str, Any], path: list[str], value: Any) -> None:

@@ -11,9 +11,9 @@ CAROM_DECLARE_KERNELS(extern const PredictionKernel<Flight> flight_kernel, falli
                       extern const PredictionKernel<MixedFlight> mixed_flight_kernel, falling_mixed_flight_kernel,
                       growing_mixed_flight_kernel, sheared_mixed_flight_kernel;)
 
-extern const PredictionKernel<Flight> well_flight_kernel, falling_well_flight_kernel;
-extern const PredictionKernel<SizedFlight> well_sized_flight_kernel, falling_well_sized_flight_kernel;
-extern const PredictionKernel<MixedFlight> well_mixed_flight_kernel, falling_well_mixed_flight_kernel;
+extern const PredictionKernel<Flight> step_flight_kernel, falling_step_flight_kernel;
+extern const PredictionKernel<SizedFlight> step_sized_flight_kernel, falling_step_sized_flight_kernel;
+extern const PredictionKernel<MixedFlight> step_mixed_flight_kernel, falling_step_mixed_flight_kernel;
 
 // NOLINTBEGIN(bugprone-macro-parentheses): a type has none
 #define CAROM_PREDICTION_KERNELS(Line, name)                         \
@@ -24,10 +24,10 @@ extern const PredictionKernel<MixedFlight> well_mixed_flight_kernel, falling_wel
         return CAROM_CHOSEN_KERNEL(falling_##name);                  \
       case Contact::growing:                                         \
         return CAROM_CHOSEN_KERNEL(growing_##name);                  \
-      case Contact::wells:                                           \
-        return well_##name;                                          \
-      case Contact::falling_wells:                                   \
-        return falling_well_##name;                                  \
+      case Contact::steps:                                           \
+        return step_##name;                                          \
+      case Contact::falling_steps:                                   \
+        return falling_step_##name;                                  \
       case Contact::sheared:                                         \
         return CAROM_CHOSEN_KERNEL(sheared_##name);                  \
       case Contact::hard:                                            \

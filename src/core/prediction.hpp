@@ -10,6 +10,8 @@
 
 namespace carom {
 
+struct PairStep;  // core/pair_step.hpp; kernels must not include its code
+
 /// Data of a sheared box, whose images above slide past those below (effects/shear.hpp), for the kernel that supports it.
 struct SlidingFrame {
   /// Heights of the centre of each disk's neighbourhood, in steps of 2^32. It tells in which box a disk is whose coordinate has
@@ -29,21 +31,23 @@ struct PredictionFrame {
   /// The time at which a disk leaves its neighbourhood is rounded down to steps of this length (a power of two; 0 for none). It
   /// is nothing physical, and with a time of few bits as `now` the predictions made then are exact for dyadic data.
   double edge_step = 0.0;
-  double scale = 1.0;      ///< scale of all radii at the epoch; beyond 1 only for the kernel of growing disks
-  double expansion = 0.0;  ///< of the scale, per time
-  double well = 1.0;       ///< outer over hard diameter; beyond 1 only for the kernel of wells
-  const std::vector<std::int32_t>* inside = nullptr;  ///< for the kernel of wells: for each disk, those inside its well
+  double scale = 1.0;             ///< scale of all radii at the epoch; beyond 1 only for the kernel of growing disks
+  double expansion = 0.0;         ///< of the scale, per time
+  double reach = 1.0;             ///< of the pair potential over the hard diameter; beyond 1 only for the kernel of steps
+  std::int32_t outside = 0;       ///< for the kernel of steps: the number of steps
+  const double* edges = nullptr;  ///< for the kernel of steps: widths of the core and of all steps, over the hard diameter
+  const std::vector<PairStep>* pair_steps = nullptr;  ///< for the kernel of steps: for each disk, its partners within them
   SlidingFrame sliding = {};
   /// For disks whose diameters are not additive: contact distances over sums of radii, a row of `kinds` for each species.
   const double* contact_scales = nullptr;
   std::int32_t kinds = 0;
 };
 
-/// The kind of contact between two disks: hard cores, falling hard cores, growing hard cores, wells with hard cores (which may
-/// fall too), or hard cores in a sheared box. Falling does not change the relative motion of a pair, but height is energy: where
-/// other engines begin a new line at the next step of a coordinate towards the old line, falling disks' lines are rounded to
-/// nearest.
-enum class Contact { hard, falling, growing, wells, falling_wells, sheared };
+/// The kind of contact between two disks: hard cores, falling hard cores, growing hard cores, hard cores within steps of a
+/// potential (which may fall too), or hard cores in a sheared box. Falling does not change the relative motion of a pair, but
+/// height is energy: where other engines begin a new line at the next step of a coordinate towards the old line, falling disks'
+/// lines are rounded to nearest.
+enum class Contact { hard, falling, growing, steps, falling_steps, sheared };
 
 /// The neighbourhood of a disk: a square round `centre` (in steps of 2^32 of a coordinate), and the ids of the disks that it may
 /// meet there, padded with its own id, with which it never collides, to eight at least and to a multiple of four; after a
@@ -85,7 +89,7 @@ struct PredictionKernel {
   const char* name;  ///< name of the instruction set
 };
 
-/// Returns the best kernel for this machine; see core/instructions.hpp. That of wells is the same on all.
+/// Returns the best kernel for this machine; see core/instructions.hpp. That of steps is the same on all.
 template <class Line>
 const PredictionKernel<Line>& prediction_kernel(Contact contact = Contact::hard);
 

@@ -1,6 +1,6 @@
 #pragma once
-// Predictions of one neighbour at a time, for pairs that the vectors of prediction_kernel.hpp do not support: those in wells and
-// those in a sheared box. The time at which a disk leaves its neighbourhood has the same bits as there.
+// Predictions of one neighbour at a time, for pairs that the vectors of prediction_kernel.hpp do not support: those in steps of a
+// potential and those in a sheared box. The time at which a disk leaves its neighbourhood has the same bits as there.
 
 #include "core/prediction.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 // What happens when two disks meet, with everything that a scene may ask of it: either rule, restitution, roughness with spin,
-// the TC model, growing disks, wells. It holds what the loop's records do not: spins, when each disk last collided, and who is
-// inside whose well.
+// the TC model, growing disks, stepped potentials. It holds what the loop's records do not: spins, when each disk last collided,
+// and in which step of the potential each pair is.
 
 #include "core/running_totals.hpp"
 #include "effects/drag.hpp"
@@ -9,7 +9,7 @@
 #include "effects/reversal.hpp"
 #include "effects/rough.hpp"
 #include "effects/specular.hpp"
-#include "effects/square_well.hpp"
+#include "effects/stepped_potential.hpp"
 
 #include <carom/collision_rule.hpp>
 #include <carom/effects.hpp>
@@ -36,7 +36,7 @@ class AnyImpact {
         elastic_below_(Real(effects.collision.elastic_below.value_or(0.0))),
         spins_(effects.collision.roughness ? disks : 0, Real(0)),
         last_(elastic_below_ > 0 && effects.dissipate() ? disks : 0, -infinity<Real>),
-        wells_(effects.square_well, disks),
+        potential_(effects, disks),
         by_rule_alone_(is_plain()),
         sheared_(effects.shear_rate() != 0.0),
         drag_(effects.drag_rate()) {}
@@ -46,10 +46,10 @@ class AnyImpact {
     AnyImpact part = *this;
     part.spins_.assign(spins_.empty() ? 0 : slots, Real(0));
     part.last_.assign(last_.empty() ? 0 : slots, -infinity<Real>);
-    part.wells_ = wells_.with_slots(slots);
+    part.potential_ = potential_.with_slots(slots);
     return part;
   }
-  /// What it knows of one disk, but for its wells.
+  /// What it knows of one disk, but for its pairs in steps of the potential.
   struct DiskRest {
     Real spin = 0;
     Real last = -infinity<Real>;
@@ -74,14 +74,14 @@ class AnyImpact {
     Vec2<Real>& v;
   };
 
-  /// Disks i and j meet at separation r = r_i - r_j at time `now`, at their hard cores or at the edge of their well. `sigma`:
+  /// Disks i and j meet at separation r = r_i - r_j at time `now`, at their hard cores or at an edge of the potential. `sigma`:
   /// their contact distance; `expansion`: its rate. Changes velocities and keeps count. Returns InelasticResult::smallness.
   Real meet(const Vec2<Real>& r, Real sigma, Real expansion, const Body& i, const Body& j, Real now, RunningTotals& totals) {
     const Real before = i.v.x(), slowed = drag_.at(now);
     InelasticResult<Real> impact;
-    if (wells_.present() && wells_.at_edge(r, sigma)) {
+    if (potential_.present() && potential_.at_edge(r, sigma)) {
       ++totals.well;
-      impact = {wells_.cross_edge(i.disk, j.disk, r, i.mass, i.v, j.mass, j.v)};
+      impact = {potential_.cross_edge(i.disk, j.disk, r, sigma, i.mass, i.v, j.mass, j.v)};
     } else {
       if (owing_) settle(i, j);
       impact = by_rule_alone_ && expansion == 0 ? InelasticResult<Real>{collide(r, i, j)} : collide(r, expansion, i, j, now);
@@ -129,14 +129,14 @@ class AnyImpact {
   [[nodiscard]] Real& spin(std::int32_t i) { return spins_[static_cast<std::size_t>(i)]; }
   [[nodiscard]] Real spin(std::int32_t i) const { return spins_[static_cast<std::size_t>(i)]; }
 
-  [[nodiscard]] SquareWells<Real>& wells() { return wells_; }
-  [[nodiscard]] const SquareWells<Real>& wells() const { return wells_; }
+  [[nodiscard]] PairPotential<Real>& potential() { return potential_; }
+  [[nodiscard]] const PairPotential<Real>& potential() const { return potential_; }
 
-  [[nodiscard]] std::size_t bytes() const { return (spins_.capacity() + last_.capacity()) * sizeof(Real) + wells_.bytes(); }
+  [[nodiscard]] std::size_t bytes() const { return (spins_.capacity() + last_.capacity()) * sizeof(Real) + potential_.bytes(); }
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(spins_, last_, wells_, owed_, owing_, drag_);
+    archive(spins_, last_, potential_, owed_, owing_, drag_);
   }
 
  private:
@@ -221,7 +221,7 @@ class AnyImpact {
   Real elastic_below_;
   std::vector<Real> spins_;
   std::vector<Real> last_;  ///< collision of each disk, since the clock's zero
-  SquareWells<Real> wells_;
+  PairPotential<Real> potential_;
   Vec2<Real> owed_ = Vec2<Real>::Zero();  ///< momentum
   bool owing_ = false;
   CollisionFunction own_rule_;  ///< of the program

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -28,11 +29,22 @@ struct Continuation {
     Instant time;
   };
   std::optional<Pending> pending;
-  /// Pairs inside each other's wells, by ids, the lower first; rising. At the edge a state does not determine it.
-  std::vector<std::pair<std::int32_t, std::int32_t>> bonds;
+  /// A pair within the steps of the potential, by ids, the lower first.
+  struct Bond {
+    std::int32_t i, j;
+    double middle;  ///< a distance within its step, in contact distances
 
-  [[nodiscard]] bool bound(std::int32_t i, std::int32_t j) const {
-    return std::binary_search(bonds.begin(), bonds.end(), std::pair(std::min(i, j), std::max(i, j)));
+    [[nodiscard]] std::pair<std::int32_t, std::int32_t> pair() const { return {i, j}; }
+  };
+  /// All such pairs, rising. At the edge of a step a state does not determine where they are.
+  std::vector<Bond> bonds;
+
+  void sort_bonds() { std::ranges::sort(bonds, {}, &Bond::pair); }
+  /// Returns the distance within the step of a pair, in contact distances; infinity for one that was outside.
+  [[nodiscard]] double middle(std::int32_t i, std::int32_t j) const {
+    const auto ids = std::pair(std::min(i, j), std::max(i, j));
+    const auto found = std::ranges::lower_bound(bonds, ids, {}, &Bond::pair);
+    return found != bonds.end() && found->pair() == ids ? found->middle : std::numeric_limits<double>::infinity();
   }
 };
 

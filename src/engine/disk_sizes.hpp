@@ -26,9 +26,11 @@ inline double largest_contact_distance(const Disks& disks, const Effects& effect
   return (largest + second) * contact_scales<double>(effects, disks).largest();
 }
 
-/// The factor by which contact distances may grow in a run: disks until they fill the box, times the width of their wells.
+/// The factor by which contact distances may grow in a run: disks until they fill the box, times the reach of the pair
+/// potential.
 inline double largest_scale(const Box& box, const Disks& disks, const Effects& effects) {
-  double scale = effects.square_well && effects.square_well->depth != 0.0 ? effects.square_well->width : 1.0;
+  const std::vector<PotentialStep> steps = effects.potential_steps();
+  const double scale = steps.empty() ? 1.0 : steps.back().width;
   if (!effects.growth || effects.growth->rate == 0.0) return scale;
   double squares = 0.0;
   for (const double radius : disks.radius) squares += radius * radius;

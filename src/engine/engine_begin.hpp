@@ -17,8 +17,7 @@ template <class Line>
 const PredictionKernel<Line>& kernel_for(const Effects& effects) {
   const bool falling = !effects.acceleration().isZero(0.0);
   if (effects.growth && effects.growth->rate > 0.0) return prediction_kernel<Line>(Contact::growing);
-  if (effects.square_well && effects.square_well->depth != 0.0)
-    return prediction_kernel<Line>(falling ? Contact::falling_wells : Contact::wells);
+  if (!effects.potential_steps().empty()) return prediction_kernel<Line>(falling ? Contact::falling_steps : Contact::steps);
   if (effects.shear_rate() != 0.0) return prediction_kernel<Line>(Contact::sheared);
   return prediction_kernel<Line>(falling ? Contact::falling : Contact::hard);
 }
@@ -78,10 +77,7 @@ LoopState<Impact, Layout, World>::LoopState(const Box& box, const Disks& disks, 
 
   sizes_.area = order.area;
   if constexpr (!Impact::plain) {
-    if (impact_.wells().present()) {
-      frame_.well = impact_.wells().reach();
-      frame_.inside = impact_.wells().table();
-    }
+    point_at_potential();
     for (std::int32_t i = 0; i < count() && impact_.spinning(); ++i)
       if (start.spins.size() > id(i)) impact_.spin(i) = start.spins[id(i)];
   }
@@ -96,7 +92,7 @@ LoopState<Impact, Layout, World>::LoopState(const Box& box, const Disks& disks, 
   double half_width = std::min(sizes_.suitable_half_width(), sizes_.widest_neighbourhood);
   for (rebuild(half_width); lists_.median_count() > 11 && half_width > 0.1 * sizes_.mean_diameter; rebuild(half_width))
     half_width *= 0.7;
-  find_wells();
+  find_steps();
   if (common_motion_.present()) common_motion_.begin(lines_, [this](const Line& a) { return layout_.momentum(a); });
   choose_epoch_length();
 }
@@ -143,15 +139,16 @@ std::size_t LoopState<Impact, Layout, World>::bytes() const {
 }
 
 template <class Impact, class Layout, class World>
-void LoopState<Impact, Layout, World>::find_wells() {
+void LoopState<Impact, Layout, World>::find_steps() {
   if constexpr (!Impact::plain) {
-    auto& wells = impact_.wells();
-    for (std::int32_t i = 0; i < count() && wells.present(); ++i)
+    auto& potential = impact_.potential();
+    for (std::int32_t i = 0; i < count() && potential.present(); ++i)
       for (std::uint32_t n = 0; n < lists_.count(i); ++n) {
         const std::int32_t j = lists_.ids(i)[n];
         const Line &a = line(i), &b = line(j);
         const double sigma = layout_.contact_distance(a, b);
-        if (i < j && wells.begins_inside(flight_.separation(a, b, now_), sigma)) wells.enter(i, j);
+        const std::int32_t step = i < j ? potential.step_at(flight_.separation(a, b, now_), sigma) : potential.outside();
+        if (step != potential.outside()) potential.move(i, j, step);
       }
   }
 }

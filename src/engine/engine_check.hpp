@@ -100,7 +100,7 @@ void Engine<Impact, Layout, World>::check_pair(std::int32_t i, std::int32_t j, d
   const double meeting = predicted_against(i, j).pair_time;
   const double planned = std::min({plans_.time(i), plans_.time(j), epoch_length_});
   if (!(meeting < planned)) return;
-  if (world_.expansion() > 0.0 || frame_.inside != nullptr) return;  // how deep they would be is another question there
+  if (world_.expansion() > 0.0 || frame_.pair_steps != nullptr) return;  // how deep they would be is another question there
   // Times of close pairs are uncertain; how deep they would be in each other by then is not.
   const double nearest = std::clamp(-r.dot(v) / v.squaredNorm(), 0.0, planned - now_);
   const double depth = sigma - (r + nearest * v).norm();

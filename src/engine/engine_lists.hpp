@@ -13,7 +13,7 @@ void LoopState<Impact, Layout, World>::make_lists() {
   sizes_.listed_scale = world_.scale(epoch_length_ < never ? epoch_length_ : 0.0);
   if (world_.expansion() > 0.0)
     sizes_.listed_scale *= 1.0 + 1.0 / 64.0;  // more makes lists longer, less has them made more often
-  const double factor = sizes_.listed_scale * frame_.well;
+  const double factor = sizes_.listed_scale * frame_.reach;
   sizes_.reach = sizes_.largest_contact * factor;
   std::vector<double> radius = sizes_.radius;
   for (double& one : radius) one *= factor * sizes_.contact_scale;

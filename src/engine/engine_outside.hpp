@@ -4,6 +4,7 @@
 #include "engine/engine.hpp"
 
 #include <cmath>
+#include <numeric>
 
 namespace carom {
 
@@ -27,9 +28,11 @@ void Engine<Impact, Layout, World>::state(State& state) const {
   if constexpr (!World::plain)
     if (world_.sheared()) state.shear_displacement = world_.lees_edwards.reduced(now_);
   state.bonds = 0;
+  state.pairs_in_steps.clear();
   state.spins.resize(impact_.spinning() ? count() : 0);
   if constexpr (!Impact::plain) {
-    state.bonds = impact_.wells().pairs();
+    state.pairs_in_steps = impact_.potential().pairs();
+    state.bonds = std::accumulate(state.pairs_in_steps.begin(), state.pairs_in_steps.end(), std::uint64_t{0});
     for (std::int32_t i = 0; i < count() && impact_.spinning(); ++i) state.spins[id(i)] = impact_.spin(i);
   }
 }
@@ -103,10 +106,11 @@ void Engine<Impact, Layout, World>::leave(Continuation& continuation) const {
   if constexpr (!World::plain) continuation.wall_draws = world_.walls.draws();
   continuation.bonds.clear();
   if constexpr (!Impact::plain) {
-    for (std::int32_t i = 0; i < count() && impact_.wells().present(); ++i)
-      for (const std::int32_t j : impact_.wells().of(i))
-        if (id(i) < id(j)) continuation.bonds.emplace_back(id(i), id(j));
-    std::sort(continuation.bonds.begin(), continuation.bonds.end());
+    const auto& potential = impact_.potential();
+    for (std::int32_t i = 0; i < count() && potential.present(); ++i)
+      for (const PairStep& pair : potential.of(i))
+        if (id(i) < id(pair.disk)) continuation.bonds.push_back({id(i), id(pair.disk), potential.middle(pair.step)});
+    continuation.sort_bonds();
   }
 }
 
@@ -116,16 +120,17 @@ void Engine<Impact, Layout, World>::take_over(const Continuation& continuation) 
   totals_.go_on_from(continuation.totals);
   if constexpr (!World::plain) world_.walls.go_on_drawing(continuation.wall_draws);
   if constexpr (!Impact::plain) {
-    auto& wells = impact_.wells();
+    auto& potential = impact_.potential();
     bool changed = false;
-    for (std::int32_t i = 0; i < count() && wells.present(); ++i)
+    for (std::int32_t i = 0; i < count() && potential.present(); ++i)
       for (std::uint32_t n = 0; n < lists_.count(i); ++n) {
         const std::int32_t j = lists_.ids(i)[n];
         const Line &a = line(i), &b = line(j);
-        if (i > j || !wells.is_edge(flight_.separation(a, b, now_), layout_.contact_distance(a, b))) continue;
-        const bool bound = continuation.bound(id(i), id(j));
-        if (bound == wells.inside(i, j)) continue;
-        bound ? wells.enter(i, j) : wells.leave(i, j);
+        if (i > j) continue;
+        const std::int32_t step =
+            potential.step_at(flight_.separation(a, b, now_), layout_.contact_distance(a, b), continuation.middle(id(i), id(j)));
+        if (step == potential.step_of(i, j)) continue;
+        potential.move(i, j, step);
         changed = true;
       }
     if (changed) predict_all(), start_queue();
@@ -135,7 +140,7 @@ void Engine<Impact, Layout, World>::take_over(const Continuation& continuation) 
 /// Archives a frame without its pointers, which are those of the engine that reads.
 template <class Archive>
 void serialize(Archive& archive, PredictionFrame& frame) {
-  archive(frame.unit, frame.steps, frame.sigma, frame.half_width, frame.edge_step, frame.scale, frame.expansion, frame.well);
+  archive(frame.unit, frame.steps, frame.sigma, frame.half_width, frame.edge_step, frame.scale, frame.expansion, frame.reach);
   archive(frame.sliding.displacement, frame.sliding.speed, frame.sliding.inner);
 }
 
@@ -150,8 +155,7 @@ void LoopState<Impact, Layout, World>::serialize(Archive& archive) {
   archive(mean_speed_, limits_, boundaries_, tuning_, pacing_);
   if constexpr (Archive::is_loading::value) {
     recorder_.begin_epoch(epoch_);
-    if constexpr (!Impact::plain)
-      if (impact_.wells().present()) frame_.inside = impact_.wells().table();
+    point_at_potential();
     frame_.sliding.heights = flight_.heights();
   }
 }

@@ -12,6 +12,7 @@
 
 #include "core/instant.hpp"
 #include "core/large_memory.hpp"
+#include "core/pair_step.hpp"
 #include "core/prediction.hpp"
 #include "core/running_totals.hpp"
 #include "core/sides.hpp"
@@ -118,7 +119,17 @@ class LoopState {
   void rebuild(double half_width);
   void suit_neighbourhoods(double half_width);
   [[nodiscard]] std::vector<NeighbourhoodCentre> new_centres() const;
-  void find_wells();
+  void find_steps();
+  /// Lets predictions read the steps of the potential where the impact has them.
+  void point_at_potential() {
+    if constexpr (!Impact::plain)
+      if (const auto& potential = impact_.potential(); potential.present()) {
+        frame_.reach = potential.reach();
+        frame_.outside = potential.outside();
+        frame_.edges = potential.edges().data();
+        frame_.pair_steps = potential.table();
+      }
+  }
   void update_shear();
   void leave_room_for_shear(const std::vector<NeighbourhoodCentre>& centres);
 

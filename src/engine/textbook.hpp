@@ -293,7 +293,7 @@ class TextbookEngine {
   [[nodiscard]] Real suitable_epoch_length() const;
   /// Cells for the box as it is and for disks as large as they will become in this epoch.
   void suit_grid();
-  void find_wells();
+  void find_steps();
   void leave_bonds(Continuation& continuation) const;
   void take_over_bonds(const Continuation& continuation);
 

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace carom {
 
@@ -37,44 +38,47 @@ TextbookEngine<Real>::TextbookEngine(const Box& box, const Disks& disks, const S
   suit_grid();
   grid_.clear();
   for (std::int32_t i = 0; i < count(); ++i) grid_.insert(i, record(i).r);
-  find_wells();
+  find_steps();
   if (common_motion_.present()) common_motion_.begin(records_, [](const Record& a) { return momentum(a); });
   begin_epoch(Real(0));
 }
 
-/// Finds the pairs that begin inside each other's wells.
+/// Finds the pairs that begin within steps of the potential.
 template <class Real>
-void TextbookEngine<Real>::find_wells() {
-  SquareWells<Real>& wells = impact_.wells();
-  if (!wells.present()) return;
+void TextbookEngine<Real>::find_steps() {
+  PairPotential<Real>& potential = impact_.potential();
+  if (!potential.present()) return;
   for (std::int32_t i = 0; i < count(); ++i)
     grid_.for_neighbours(i, [&](std::int32_t j, const Winding& shift) {
       const Record &a = record(i), &b = record(j);
-      if (i < j && wells.begins_inside(separation(a, b, 0, shift), contact_distance(i, j))) wells.enter(i, j);
+      if (i > j) return;
+      const std::int32_t step = potential.step_at(separation(a, b, 0, shift), contact_distance(i, j));
+      if (step != potential.outside()) potential.move(i, j, step);
     });
 }
 
 template <class Real>
 void TextbookEngine<Real>::leave_bonds(Continuation& continuation) const {
   continuation.bonds.clear();
-  for (std::int32_t i = 0; i < count() && impact_.wells().present(); ++i)
-    for (const std::int32_t j : impact_.wells().of(i))
-      if (i < j) continuation.bonds.emplace_back(i, j);
-  std::sort(continuation.bonds.begin(), continuation.bonds.end());
+  const PairPotential<Real>& potential = impact_.potential();
+  for (std::int32_t i = 0; i < count() && potential.present(); ++i)
+    for (const PairStep& pair : potential.of(i))
+      if (i < pair.disk) continuation.bonds.push_back({i, pair.disk, potential.middle(pair.step)});
+  continuation.sort_bonds();
 }
 
 template <class Real>
 void TextbookEngine<Real>::take_over_bonds(const Continuation& continuation) {
-  SquareWells<Real>& wells = impact_.wells();
-  if (!wells.present()) return;
+  PairPotential<Real>& potential = impact_.potential();
+  if (!potential.present()) return;
   bool changed = false;
   for (std::int32_t i = 0; i < count(); ++i)
     grid_.for_neighbours(i, [&](std::int32_t j, const Winding& shift) {
       const Record &a = record(i), &b = record(j);
-      if (i > j || !wells.is_edge(separation(a, b, 0, shift), contact_distance(i, j))) return;
-      const bool bound = continuation.bound(i, j);
-      if (bound == wells.inside(i, j)) return;
-      bound ? wells.enter(i, j) : wells.leave(i, j);
+      if (i > j || !world_.edges.domain().nearest(separation(a, b, 0, shift))) return;
+      const std::int32_t step = potential.step_at(separation(a, b, 0, shift), contact_distance(i, j), continuation.middle(i, j));
+      if (step == potential.step_of(i, j)) return;
+      potential.move(i, j, step);
       changed = true;
     });
   if (!changed) return;
@@ -101,7 +105,7 @@ void TextbookEngine<Real>::suit_grid() {
   for (int axis = 0; axis < 2; ++axis)  // walls may have closed in upon each other: a grid needs some width
     now.upper[axis] = std::max(now.upper[axis], now.lower[axis] + largest_radius_);
   const Real scale = world_.expansion > 0 && epoch_length_ < infinity<Real> ? world_.scale(epoch_length_) : world_.scale_at_epoch;
-  grid_ = CellGrid<Real>(Domain<Real>(now), largest_contact() * scale * impact_.wells().reach(), records_.size());
+  grid_ = CellGrid<Real>(Domain<Real>(now), largest_contact() * scale * impact_.potential().reach(), records_.size());
 }
 
 template <class Real>
@@ -130,7 +134,8 @@ void TextbookEngine<Real>::state(State& state) const {
   for (std::int32_t i = 0; i < state.spins.size(); ++i) state.spins[i] = static_cast<double>(impact_.spin(i));
   state.scale = static_cast<double>(world_.scale(now_));
   state.walls = world_.walls.states(now_);
-  state.bonds = impact_.wells().pairs();
+  state.pairs_in_steps = impact_.potential().pairs();
+  state.bonds = std::accumulate(state.pairs_in_steps.begin(), state.pairs_in_steps.end(), std::uint64_t{0});
   state.shear_displacement = world_.edges.sheared() ? world_.edges.displacement(now_) : 0.0;
 }
 

@@ -74,13 +74,13 @@ struct TextbookWorld {
   /// The scale of all radii at time t.
   [[nodiscard]] Real scale(Real t) const { return scale_at_epoch + expansion * t; }
 
-  /// The time from t on until disks i and j, at separation r with relative velocity v, meet at their hard cores or the edge of
-  /// their well; infinity for never. `sigma` is their contact distance at scale 1.
+  /// The time from t on until disks i and j, at separation r with relative velocity v, meet at their hard cores or at an edge
+  /// of the potential; infinity for never. `sigma` is their contact distance at scale 1.
   [[nodiscard]] Real time_to_contact(const AnyImpact<Real>& impact, std::int32_t i, std::int32_t j, const Vec2<Real>& r,
                                      const Vec2<Real>& v, Real sigma, Real t) const {
-    if (impact.wells().present()) {
-      const bool bound = impact.wells().inside(i, j) && edges.domain().nearest(r);  // a well reaches less than half the box
-      return impact.wells().next_time(bound, r, v, sigma);
+    if (const PairPotential<Real>& potential = impact.potential(); potential.present()) {
+      const bool nearest = edges.domain().nearest(r);  // the potential reaches less than half the box
+      return potential.next_time(nearest ? potential.step_of(i, j) : potential.outside(), r, v, sigma);
     }
     return contact_time<Real>(r, v, sigma * scale(t), sigma * expansion);
   }

@@ -38,8 +38,8 @@ H5mdObservables::H5mdObservables(hid_t file, const Scene& scene, const Disks& di
       [](const Sample& s, Row row) { row[0] = kinetic_temperature(s.box, s.effects, s.disks, s.state); });
   put(true, "pair_collisions", {}, [](const Sample& s, Row row) { row[0] = static_cast<double>(s.totals.pair); });
   put(true, "virial", {}, [](const Sample& s, Row row) { row[0] = s.totals.virial; });
-  put(effects_.square_well.has_value(), "well_passages", {},
-      [](const Sample& s, Row row) { row[0] = static_cast<double>(s.totals.well); });
+  const bool stepped = effects_.square_well || effects_.stepped_potential;
+  put(stepped, "well_passages", {}, [](const Sample& s, Row row) { row[0] = static_cast<double>(s.totals.well); });
   put(walled, "wall_impulse", {4}, [](const Sample& s, Row row) { copy(s.totals.wall_impulse, row); });
   put(effects_.circle.has_value(), "circle_impulse", {}, [](const Sample& s, Row row) { row[0] = s.totals.circle_impulse; });
   const bool thermal = any_wall(effects_, [](const WallProperties& wall) { return wall.temperature.has_value(); });
@@ -54,8 +54,12 @@ H5mdObservables::H5mdObservables(hid_t file, const Scene& scene, const Disks& di
       [](const Sample& s, Row row) { row[0] = carom::piston_energy(s.effects, s.state); });
   put(has_more_than_kinetic_energy(effects_), "total_energy", {},
       [](const Sample& s, Row row) { row[0] = carom::total_energy(s.box, s.effects, s.disks, s.state); });
-  put(effects_.square_well.has_value(), "bonds", {},
-      [](const Sample& s, Row row) { row[0] = static_cast<double>(s.state.bonds); });
+  put(stepped, "bonds", {}, [](const Sample& s, Row row) { row[0] = static_cast<double>(s.state.bonds); });
+  const auto steps = static_cast<hsize_t>(effects_.potential_steps().size());
+  put(effects_.stepped_potential.has_value() && steps > 0, "pairs_in_steps", {steps}, [](const Sample& s, Row row) {
+    for (std::size_t k = 0; k < std::min(row.size(), s.state.pairs_in_steps.size()); ++k)
+      row[k] = static_cast<double>(s.state.pairs_in_steps[k]);
+  });
   put(walls_move, "walls", {4}, [](const Sample& s, Row row) {
     const Box now = box_of(s.box, s.state);
     copy(std::array{now.lower.x(), now.upper.x(), now.lower.y(), now.upper.y()}, row);

@@ -44,6 +44,7 @@ Json walls_json(const std::vector<WallReport>& walls) {
 }
 
 Json json_of(std::uint64_t value) { return value; }
+Json json_of(const std::vector<std::uint64_t>& values) { return values; }
 Json json_of(double value) { return number(value); }
 Json json_of(const std::optional<double>& value) { return number(value); }
 Json json_of(const Eigen::Vector2d& value) { return vector(value); }

@@ -66,6 +66,7 @@ WallReport wall_in(const std::string& name, const Json& json) {
 void read(const Json& json, double& value) { value = finite_in(json); }
 void read(const Json& json, std::optional<double>& value) { value = number_in(json); }
 void read(const Json& json, std::uint64_t& value) { value = json.get<std::uint64_t>(); }
+void read(const Json& json, std::vector<std::uint64_t>& values) { values = json.get<std::vector<std::uint64_t>>(); }
 void read(const Json& json, Eigen::Vector2d& value) { value = vector_in(json); }
 
 EffectsReport effects_in(const Json& json) {

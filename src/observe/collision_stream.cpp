@@ -15,7 +15,8 @@ CollisionStream::CollisionStream(const Scene& scene, const Disks& disks)
       box_(scene.box),
       smooth_(velocities_determine_contacts(scene.effects)) {
   acceleration_ = scene.effects.acceleration();
-  if (scene.effects.square_well) edge_ = 0.5 * (1.0 + scene.effects.square_well->width);
+  if (const std::vector<PotentialStep> steps = scene.effects.potential_steps(); !steps.empty())
+    edge_ = 0.5 * (1.0 + steps.front().width);
   moves_between_ = !smooth_ || !acceleration_.isZero(0.0);
   std::vector<std::int32_t> ids(disks.count());
   std::iota(ids.begin(), ids.end(), 0);

@@ -3,7 +3,7 @@
 // disk's motion that is kept here, exact straight flight (or a parabola) from event to event.
 //
 // The impulse of smooth disks is along the line of centres, so their velocities determine where they touched. Only where that
-// does not hold (reversal, rough disks, wells) positions are followed too, and records come with their contacts.
+// does not hold (reversal, rough disks, stepped potentials) positions are followed too, and records come with their contacts.
 
 #include "core/contact_scales.hpp"
 
@@ -46,7 +46,7 @@ class CollisionStream {
   ContactScales<double> scales_;
   Box box_;
   Eigen::Vector2d acceleration_ = Eigen::Vector2d::Zero();
-  double edge_ = 0.0;   ///< distances above this many contact distances are edges of wells; 0 where there are none
+  double edge_ = 0.0;   ///< distances above this many contact distances are edges of the potential; 0 without one
   bool smooth_;         ///< impulses are along the line of centres
   bool moves_between_;  ///< positions or times of the last event are needed
   std::vector<Eigen::Vector2d> velocity_;

@@ -93,6 +93,7 @@ EffectsReport effects_report(const Scene& scene, const Disks& disks, const Total
         .scale = end.scale, .packing_fraction = packing_fraction(scene.box, disks, end), .energy = totals.growth_energy};
   if (effects.shear) report.shear = shear_report(scene, totals, end);
   if (effects.square_well) report.bonds = end.bonds;
+  if (effects.stepped_potential) report.stepped_potential = {.pairs = end.bonds, .pairs_in_steps = end.pairs_in_steps};
   report.energy_supplied = energy_supplied(effects, disks, totals, end);
   return report;
 }

@@ -63,6 +63,12 @@ struct ShearReport {
   std::optional<double> viscosity;                  ///< - pressure_xy / rate
 };
 
+/// Pairs at the end, within the outermost step of the potential, and in each of Effects::potential_steps().
+struct SteppedPotentialReport {
+  std::uint64_t pairs = 0;
+  std::vector<std::uint64_t> pairs_in_steps;
+};
+
 struct EffectsReport {
   std::vector<WallReport> walls;               ///< all walls of the box, whatever their kind
   std::optional<double> packing_fraction_end;  ///< packing fraction at the end, where walls move
@@ -78,6 +84,7 @@ struct EffectsReport {
   std::optional<GrowthReport> growth;
   std::optional<ShearReport> shear;
   std::optional<std::uint64_t> bonds;  ///< number of bonds at the end
+  std::optional<SteppedPotentialReport> stepped_potential;
 
   /// Energy supplied to disks and pistons, less that lost. Empty where no effect supplies or removes energy, and where
   /// exchanges_uncounted_energy().
@@ -133,6 +140,10 @@ void visit_sections(Report& report, Visit&& visit) {
   visit("square_well", report.bonds, [](auto& bonds, auto&& put) {
     put({"bonds", "", "bonds", "pairs within each other's well at the end"}, bonds);
   });
+  visit("stepped_potential", report.stepped_potential, [](auto& part, auto&& put) {
+    put({"pairs", "", "pairs within steps", "of the potential at the end"}, part.pairs);
+    put({"pairs_in_steps", "", "pairs in each step", "from the core outwards, at the end"}, part.pairs_in_steps);
+  });
 }
 
 /// Calls visit(key, quantity, count) for each kind of event that only an effect of this report has: its key in `events` of
@@ -141,6 +152,7 @@ template <class AnyCounts, class Visit>
 void visit_events(const EffectsReport& report, AnyCounts& counts, Visit&& visit) {
   if (report.obstacles || report.circle) visit("obstacle", "obstacle hits", counts.obstacle);
   if (report.bonds) visit("well", "", counts.well);
+  if (report.stepped_potential) visit("step", "edges of steps", counts.well);
   if (report.thermostat) visit("thermostat", "thermostat events", counts.thermostat);
   if (report.tumbling) visit("tumbling", "", counts.thermostat);
   if (report.brownian) visit("brownian", "velocities redrawn", counts.thermostat);

@@ -63,6 +63,11 @@ double potential_energy(const Box& box, const Effects& effects, const Disks& dis
   Wide sum = 0.0;
   sum += energy_of_heights(box, effects.acceleration(), disks, state);
   if (effects.square_well) sum -= static_cast<Wide>(effects.square_well->depth) * static_cast<Wide>(state.bonds);
+  if (effects.stepped_potential) {
+    const std::vector<PotentialStep> steps = effects.potential_steps();
+    for (std::size_t k = 0; k < std::min(steps.size(), state.pairs_in_steps.size()); ++k)
+      sum += static_cast<Wide>(steps[k].energy) * static_cast<Wide>(state.pairs_in_steps[k]);
+  }
   return static_cast<double>(sum + energy_of_loads(box, effects, state));
 }
 

@@ -17,9 +17,9 @@ namespace carom {
 /// Returns the sum of m |g| h over disks, as in potential_energy(). Along a periodic axis h goes on through the edges.
 [[nodiscard]] double gravitational_energy(const Box& box, const Effects& effects, const Disks& disks, const State& state);
 
-/// Returns the work still to be got from weight, wells and loads, the sum of
+/// Returns the work still to be got from weight, pair potentials and loads, the sum of
 ///   m |g| h over disks, h the height of the centre above the side of the box to which that component of g points;
-///   - depth over pairs inside each other's well;
+///   - depth over pairs inside each other's well, or the energy of its step over pairs;
 ///   load * length of the wall * way outward from its place in `box`, over pistons.
 [[nodiscard]] double potential_energy(const Box& box, const Effects& effects, const Disks& disks, const State& state);
 

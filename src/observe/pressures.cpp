@@ -167,7 +167,9 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
     const Effects& effects = run_.scene.effects;
     if (!why_no_Z_.empty()) return std::string(why_no_Z_);
     if (effects.collision.rule == CollisionRule::reversal) return "under reversal velocities need not be Maxwell's";
-    if (effects.square_well && effects.square_well->depth != 0.0) return "wells transfer momentum at their edges too";
+    if (!effects.potential_steps().empty())
+      return effects.stepped_potential ? "steps of the potential transfer momentum too"
+                                       : "wells transfer momentum at their edges too";
     if (!equal_ && !follows_)
       return run_.collisions_known ? "in a mixture collisions must be followed, and velocities change between them" : no_log;
     return {};

@@ -81,10 +81,10 @@ class RadialDistribution final : public SavedObservable<RadialDistribution> {
     return all_equal(run.disks.radius) && contact_scales<double>(run.scene.effects, run.disks).additive();
   }
 
-  /// Distance, in diameters, up to which g is smooth: it jumps at the edge of a well.
+  /// Distance, in diameters, up to which g is smooth: it jumps at the edges of the potential.
   static double smooth_until(const ObservedRun& run) {
-    const auto& well = run.scene.effects.square_well;
-    return well && well->depth != 0.0 ? std::min(1.25, well->width) : 1.25;
+    const std::vector<PotentialStep> steps = run.scene.effects.potential_steps();
+    return steps.empty() ? 1.25 : std::min(1.25, steps.front().width);
   }
 
   void sample(const State& state, const Totals&) override {

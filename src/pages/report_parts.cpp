@@ -74,7 +74,8 @@ std::vector<Plot> plots_over_time(const RunRecord::Source& source) {
                {"piston_energy", "of pistons"},
                {"total_energy", "total"}}),
       plot_of(source, "packing-fraction", "Packing fraction", "packing fraction", {{"packing_fraction", "packing fraction"}}),
-      plot_of(source, "bonds", "Bonds", "pairs within each other's well", {{"bonds", "bonds"}})};
+      plot_of(source, "bonds", "Bonds", "pairs within each other's well, or within the steps of the potential",
+              {{"bonds", "bonds"}})};
   std::erase_if(plots, [](const Plot& plot) { return plot.series.empty(); });
   if (sampled(source, "total_energy") == nullptr)  // kinetic energy is the temperature over again
     std::erase_if(plots, [](const Plot& plot) { return plot.id == "energies-over-time"; });

@@ -49,6 +49,11 @@ void put_walls(SummaryRows& rows, const RunReport& report, const Scene& scene) {
 }
 
 std::string words(std::uint64_t count, const char* /*unit*/) { return grouped(count); }
+std::string words(const std::vector<std::uint64_t>& counts, const char* /*unit*/) {
+  std::vector<std::string> each;
+  for (const std::uint64_t count : counts) each.push_back(grouped(count));
+  return fmt::format("{}", fmt::join(each, ", "));
+}
 std::string words(double value, const char* unit) { return std::string_view(unit) == "energy" ? gain(value) : digits(value); }
 std::string words(const std::optional<double>& value, const char* /*unit*/) { return value ? digits(*value) : ""; }
 std::string words(const Eigen::Vector2d& value, const char* /*unit*/) {

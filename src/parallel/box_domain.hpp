@@ -39,8 +39,8 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   using Frame = FlightFrame<Line, World>;
 
  public:
-  using Wells = std::conditional_t<Impact::plain, NoDisksInWell, DisksInWell>;
-  using Message = DiskMessage<Line, typename Frame::DiskRest, typename Impact::DiskRest, Wells>;
+  using Steps = std::conditional_t<Impact::plain, NoStepsOfPairs, StepsOfPairs>;
+  using Message = DiskMessage<Line, typename Frame::DiskRest, typename Impact::DiskRest, Steps>;
 
   /// What the comparison of copies with the messages of their homes has shown.
   struct Verdict {
@@ -189,12 +189,12 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   void recycle_slots();
   void leave(std::int32_t i);
   void settle(std::int32_t i);
-  [[nodiscard]] Wells wells_of(std::int32_t i) const { return wells_of(*this, i); }
-  /// The disks inside the well of one, in this engine or another.
-  [[nodiscard]] static Wells wells_of(const Loop& engine, std::int32_t i);
+  [[nodiscard]] Steps steps_of(std::int32_t i) const { return steps_of(*this, i); }
+  /// The partners of a disk within the steps of the potential, in this engine or another.
+  [[nodiscard]] static Steps steps_of(const Loop& engine, std::int32_t i);
   /// Calls slot(id) for the ids of disks.
   template <class SlotOf>
-  static std::vector<std::int32_t> slots_of(const DisksInWell& wells, SlotOf&& slot);
+  static std::vector<PairStep> slots_of(const StepsOfPairs& steps, SlotOf&& slot);
   [[nodiscard]] Message message_of(std::int32_t i) const;
   [[nodiscard]] bool same(std::int32_t i, const Message& message) const;
   /// The bits that say which neighbours copy a disk at home.

@@ -56,12 +56,12 @@ BoxDomain<Impact, Layout, World>::BoxDomain(const Loop& whole, const BoxParts& p
     plan.last_collided = 1;
   }
   if constexpr (!Impact::plain)
-    if (impact_.wells().present()) {
-      frame_.inside = impact_.wells().table();
+    if (impact_.potential().present()) {
+      this->point_at_potential();
       for (std::size_t k = 0; k < halo_.size(); ++k) {
-        std::vector<std::int32_t> inside = whole.impact_.wells().of(from_slot[k]);
-        for (std::int32_t& j : inside) j = slot_for(whole.id(j));
-        impact_.wells().set(halo_[k], inside);
+        std::vector<PairStep> inside = whole.impact_.potential().of(from_slot[k]);
+        for (PairStep& pair : inside) pair.disk = slot_for(whole.id(pair.disk));
+        impact_.potential().set(halo_[k], inside);
       }
     }
   for (const std::int32_t i : halo_) settle(i);
@@ -102,8 +102,8 @@ void BoxDomain<Impact, Layout, World>::recycle_slots() {
     if (!empty(i)) {
       if (plans_[i].partner >= 0) named[static_cast<std::size_t>(plans_[i].partner)] = true;
       if constexpr (!Impact::plain)
-        if (impact_.wells().present())
-          for (const std::int32_t j : impact_.wells().of(i)) named[static_cast<std::size_t>(j)] = true;
+        if (impact_.potential().present())
+          for (const PairStep& pair : impact_.potential().of(i)) named[static_cast<std::size_t>(pair.disk)] = true;
     }
   slot_of_.clear();
   for (auto i = count(); i-- > 0;) {
@@ -205,26 +205,30 @@ void BoxDomain<Impact, Layout, World>::settle(std::int32_t i) {
 }
 
 template <class Impact, class Layout, class World>
-typename BoxDomain<Impact, Layout, World>::Wells BoxDomain<Impact, Layout, World>::wells_of([[maybe_unused]] const Loop& engine,
+typename BoxDomain<Impact, Layout, World>::Steps BoxDomain<Impact, Layout, World>::steps_of([[maybe_unused]] const Loop& engine,
                                                                                             [[maybe_unused]] std::int32_t i) {
-  Wells wells{};
+  Steps steps{};
   if constexpr (!Impact::plain) {
-    wells.ids.fill(-1);
-    if (!engine.impact_.wells().present()) return wells;
-    const std::vector<std::int32_t>& inside = engine.impact_.wells().of(i);
-    const std::size_t most = std::min(inside.size(), wells.ids.size());  // there are no more: why_not_threads() sees to it
-    for (std::size_t k = 0; k < most; ++k) wells.ids[k] = engine.id(inside[k]);
-    std::sort(wells.ids.begin(), wells.ids.begin() + static_cast<std::ptrdiff_t>(most));
+    steps.ids.fill(-1);
+    if (!engine.impact_.potential().present()) return steps;
+    const std::vector<PairStep>& inside = engine.impact_.potential().of(i);
+    const std::size_t most = std::min(inside.size(), steps.ids.size());  // there are no more: why_not_threads() sees to it
+    std::array<PairStep, std::tuple_size_v<decltype(steps.ids)>> by_id{};
+    for (std::size_t k = 0; k < most; ++k) by_id[k] = {engine.id(inside[k].disk), inside[k].step};
+    std::sort(by_id.begin(), by_id.begin() + static_cast<std::ptrdiff_t>(most));
+    for (std::size_t k = 0; k < most; ++k) {
+      steps.ids[k] = by_id[k].disk;
+      steps.steps[k] = static_cast<std::int16_t>(by_id[k].step);
+    }
   }
-  return wells;
+  return steps;
 }
 
 template <class Impact, class Layout, class World>
 template <class SlotOf>
-std::vector<std::int32_t> BoxDomain<Impact, Layout, World>::slots_of(const DisksInWell& wells, SlotOf&& slot) {
-  std::vector<std::int32_t> slots;
-  for (const std::int32_t disk : wells.ids)
-    if (disk >= 0) slots.push_back(slot(disk));
+std::vector<PairStep> BoxDomain<Impact, Layout, World>::slots_of(const StepsOfPairs& steps, SlotOf&& slot) {
+  std::vector<PairStep> slots;
+  for (std::size_t k = 0; k < steps.ids.size() && steps.ids[k] >= 0; ++k) slots.push_back({slot(steps.ids[k]), steps.steps[k]});
   return slots;
 }
 
@@ -245,7 +249,7 @@ typename BoxDomain<Impact, Layout, World>::Message BoxDomain<Impact, Layout, Wor
   message.size = lists_.disk_size(i);
   message.frame = flight_.rest_of(i);
   message.impact = impact_.rest_of(i);
-  message.wells = wells_of(i);
+  message.steps = steps_of(i);
   return message;
 }
 
@@ -294,7 +298,7 @@ bool BoxDomain<Impact, Layout, World>::same(std::int32_t i, const Message& messa
          plan.pair_time == message.pair_time && plan.edge_time == message.edge_time && plan.edge == message.edge &&
          (plan.partner < 0 ? -1 : id(plan.partner)) == message.partner && centre.x == message.centre.x &&
          centre.y == message.centre.y && mark(i).history == message.history && flight_.rest_of(i) == message.frame &&
-         impact_.rest_of(i) == message.impact && wells_of(i) == message.wells &&
+         impact_.rest_of(i) == message.impact && steps_of(i) == message.steps &&
          (plan.partner >= 0 && plans_.is_stale(plan)) == message.stale;
 }
 
@@ -356,8 +360,8 @@ void BoxDomain<Impact, Layout, World>::read_plans(std::span<const Message> messa
     plan.predicted_at = message.stale || (partner >= 0 && empty(partner)) ? 0 : stamp_;
     if (!changed) continue;
     if constexpr (!Impact::plain)
-      if (impact_.wells().present())
-        impact_.wells().set(i, slots_of(message.wells, [this](std::int32_t disk) { return slot_for(disk); }));
+      if (impact_.potential().present())
+        impact_.potential().set(i, slots_of(message.steps, [this](std::int32_t disk) { return slot_for(disk); }));
     schedule(i);
   }
 }
@@ -381,7 +385,7 @@ template <class Impact, class Layout, class World>
 void BoxDomain<Impact, Layout, World>::leave(std::int32_t i) {
   lists_.remove(i);
   if constexpr (!Impact::plain)
-    if (impact_.wells().present()) impact_.wells().set(i, {});
+    if (impact_.potential().present()) impact_.potential().set(i, {});
   mark(i) = Mark{};
   plans_[i] = {never, never, -1, neighbourhood_edge, 0, ++stamp_};
   line(i).v[0] = line(i).v[1] = 0.0;
@@ -472,9 +476,9 @@ void BoxDomain<Impact, Layout, World>::store(Loop& whole, std::span<const std::i
     whole.flight_.set_rest(to, flight_.rest_of(i));
     whole.impact_.set_rest(to, impact_.rest_of(i));
     if constexpr (!Impact::plain)
-      if (impact_.wells().present())
-        whole.impact_.wells().set(
-            to, slots_of(wells_of(i), [&](std::int32_t disk) { return slot_of_id[static_cast<std::size_t>(disk)]; }));
+      if (impact_.potential().present())
+        whole.impact_.potential().set(
+            to, slots_of(steps_of(i), [&](std::int32_t disk) { return slot_of_id[static_cast<std::size_t>(disk)]; }));
     Plan plan = plans_[i];
     plan.predicted_at = plan.partner >= 0 && plans_.is_stale(plan) ? 0 : 1;
     plan.last_collided = 1;
@@ -500,7 +504,7 @@ void BoxDomain<Impact, Layout, World>::store(const Message& message, Loop& whole
   whole.flight_.set_rest(to, message.frame);
   whole.impact_.set_rest(to, message.impact);
   if constexpr (!Impact::plain)
-    if (whole.impact_.wells().present()) whole.impact_.wells().set(to, slots_of(message.wells, slot));
+    if (whole.impact_.potential().present()) whole.impact_.potential().set(to, slots_of(message.steps, slot));
   whole.plans_[to] = {message.pair_time, message.edge_time,       message.partner < 0 ? -1 : slot(message.partner),
                       message.edge,      message.stale ? 0U : 1U, 1};
   centres[static_cast<std::size_t>(to)] = message.centre;
@@ -532,7 +536,7 @@ typename BoxDomain<Impact, Layout, World>::Message BoxDomain<Impact, Layout, Wor
   message.centre = centre;
   message.frame = whole.flight_.rest_of(slot);
   message.impact = whole.impact_.rest_of(slot);
-  message.wells = wells_of(whole, slot);
+  message.steps = steps_of(whole, slot);
   return message;
 }
 

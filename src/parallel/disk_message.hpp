@@ -9,21 +9,22 @@
 
 namespace carom {
 
-/// The ids of the disks inside a disk's well, rising; -1 behind them.
-struct DisksInWell {
+/// The partners of a disk within the steps of the potential: ids, rising, and -1 behind them, and the step of each pair.
+struct StepsOfPairs {
   std::array<std::int32_t, 24> ids;
+  std::array<std::int16_t, 24> steps;
 
-  bool operator==(const DisksInWell&) const = default;
+  bool operator==(const StepsOfPairs&) const = default;
 };
-/// Where there are no wells.
-struct NoDisksInWell {
-  bool operator==(const NoDisksInWell&) const = default;
+/// Where there are no steps.
+struct NoStepsOfPairs {
+  bool operator==(const NoStepsOfPairs&) const = default;
 };
 
 /// The state of one disk at the end of a window, as the domain has it to which the disk belongs. Line, FrameRest and
 /// ImpactRest are those of the engine (engine/layout.hpp, engine/flight_frame.hpp, effects/any_impact.hpp);
-/// Wells is one of the above.
-template <class Line, class FrameRest, class ImpactRest, class Wells>
+/// Steps is one of the above.
+template <class Line, class FrameRest, class ImpactRest, class Steps>
 struct DiskMessage {
   Line line;
   double pair_time, edge_time;  ///< of its plan
@@ -36,7 +37,7 @@ struct DiskMessage {
   NeighbourLists::DiskSize size;
   FrameRest frame;
   ImpactRest impact;
-  Wells wells;
+  Steps steps;
 };
 
 }  // namespace carom

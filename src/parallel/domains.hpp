@@ -189,9 +189,9 @@ class Domains {
   void end_of_epoch();
   void watch_speeds(const SpeedCensus& speeds) { fastest_ = 1.5 * std::max(speeds.fastest[0], speeds.fastest[1]); }
   void hand_over_records();
-  void count_wells() {
+  void count_steps() {
     if constexpr (!Impact::plain)
-      if (whole_.impact_.wells().present()) whole_.impact_.wells().count_pairs();
+      if (whole_.impact_.potential().present()) whole_.impact_.potential().count_pairs();
   }
   /// Whether the epoch that begins gives disks back what they have lost of their common motion.
   [[nodiscard]] bool gives_momentum_back() const { return whole_.common_motion_.present() && !factor_; }

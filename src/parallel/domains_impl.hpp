@@ -210,7 +210,7 @@ void Domains<Impact, Layout, World>::update() {
   team_.run([&](std::size_t thread) { each(thread, [&](std::size_t d) { domains_[d]->store(whole_, slot_of_id_, centres_); }); });
   gather_disks(false);
   failure_.rethrow();
-  count_wells();
+  count_steps();
   all_stored_here_ = true;
   whole_.stamp_ = 1;
   whole_.now_ = now_;
@@ -231,7 +231,7 @@ void Domains<Impact, Layout, World>::go_back() {
   if (!all_stored_here_) {
     order(Order::send_stored);
     gather_disks(true);
-    count_wells();
+    count_steps();
     all_stored_here_ = true;
   }
   take_back([this] {
@@ -599,7 +599,7 @@ void Domains<Impact, Layout, World>::end_of_epoch() {
     for (const Facts& facts : facts_) longest = std::max(longest, facts.longest_list);
     whole_.totals_.numerics.longest_neighbour_list = longest;
   }
-  count_wells();
+  count_steps();
   all_stored_here_ = ranks_ == nullptr;
   collisions_told_ = events_told_ = 0;
   now_ = 0.0;

@@ -39,12 +39,13 @@ Array<typename Matrix::Scalar> columns_of(nb::handle self, Matrix State::*member
 State state_of(const Pairs& positions, const std::optional<Pairs>& velocities, const std::optional<Turns>& images,
                const std::optional<Numbers>& spins, double time, double scale,
                const std::vector<std::pair<double, double>>& walls, std::uint64_t bonds, double shear_displacement,
-               const std::optional<Pairs>& remainders) {
+               const std::optional<Pairs>& remainders, const std::vector<std::uint64_t>& pairs_in_steps) {
   const auto disks = static_cast<Eigen::Index>(positions.shape(0));
   State state;
   state.time = time;
   state.scale = scale;
   state.bonds = bonds;
+  state.pairs_in_steps = pairs_in_steps;
   state.shear_displacement = shear_displacement;
   state.positions = Eigen::Map<const Eigen::Matrix2Xd>(positions.data(), 2, disks);
   state.velocities = Eigen::Matrix2Xd::Zero(2, disks);
@@ -66,17 +67,19 @@ void add_state(nb::module_& module) {
           "__init__",
           [](State* self, const Pairs& positions, const std::optional<Pairs>& velocities, const std::optional<Turns>& images,
              const std::optional<Numbers>& spins, double time, double scale, const std::vector<std::pair<double, double>>& walls,
-             std::uint64_t bonds, double shear_displacement, const std::optional<Pairs>& remainders) {
-            new (self)
-                State(state_of(positions, velocities, images, spins, time, scale, walls, bonds, shear_displacement, remainders));
+             std::uint64_t bonds, double shear_displacement, const std::optional<Pairs>& remainders,
+             const std::vector<std::uint64_t>& pairs_in_steps) {
+            new (self) State(state_of(positions, velocities, images, spins, time, scale, walls, bonds, shear_displacement,
+                                      remainders, pairs_in_steps));
           },
           nb::arg("positions"), nb::arg("velocities").none() = nb::none(), nb::arg("images").none() = nb::none(),
           nb::arg("spins").none() = nb::none(), nb::arg("time") = 0.0, nb::arg("scale") = 1.0,
           nb::arg("walls") = std::vector<std::pair<double, double>>{}, nb::arg("bonds") = 0, nb::arg("shear_displacement") = 0.0,
-          nb::arg("remainders").none() = nb::none())
+          nb::arg("remainders").none() = nb::none(), nb::arg("pairs_in_steps") = std::vector<std::uint64_t>{})
       .def_ro("time", &State::time)
       .def_ro("scale", &State::scale)
       .def_ro("bonds", &State::bonds)
+      .def_ro("pairs_in_steps", &State::pairs_in_steps)
       .def_ro("shear_displacement", &State::shear_displacement)
       .def_prop_ro("positions", [](nb::handle self) { return columns_of(self, &State::positions); })
       .def_prop_ro("velocities", [](nb::handle self) { return columns_of(self, &State::velocities); })

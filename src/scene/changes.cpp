@@ -235,6 +235,7 @@ Effects detail::merged(const Effects& one, const Effects& other) {
   take(&Effects::brownian, "brownian");
   take(&Effects::shear, "shear");
   take(&Effects::square_well, "square_well");
+  take(&Effects::stepped_potential, "stepped_potential");
   take(&Effects::drag, "drag");
   if (one.obstacles.empty()) both.obstacles = other.obstacles;
   take_where_it_lacks(both.collision.restitution, other.collision.restitution, 1.0);

@@ -73,10 +73,10 @@ void check_shear(const Scene& scene) {
   }
 }
 
-/// The fraction of half the box by which a well must end before the middle between two images of a disk: more than the rounding
-/// of separations, in single precision too.
+/// The fraction of half the box by which a potential must end before the middle between two images of a disk: more than the
+/// rounding of separations, in single precision too.
 constexpr double image_margin = 0x1p-20;
-/// Times the largest coordinate: thinner wells are lost in some thousand roundings of a separation.
+/// Times the largest coordinate: thinner wells and steps are lost in some thousand roundings of a separation.
 constexpr double least_thickness = 0x1p-40;
 
 /// Two disks must not feel each other across the box and through its edge at once, and a well must have a place to be in.
@@ -109,6 +109,56 @@ void check_square_well(const Scene& scene) {
           fmt::format("square_well.width is {}; it must be above 1 + {:.3g} here: the well of the smallest disks is {:.3g} "
                       "wide, and coordinates up to {:.6g} do not resolve it",
                       well.width, least / smallest, thickness, coordinate));
+  }
+}
+
+/// The number of steps of a potential: more would be no potential that anybody writes down, and their numbers have 16 bits.
+constexpr std::size_t most_steps = 1000;
+
+void check_stepped_potential(const Scene& scene) {
+  if (!scene.effects.stepped_potential) return;
+  const std::vector<PotentialStep>& steps = scene.effects.stepped_potential->steps;
+  if (steps.empty())
+    throw Refusal("stepped_potential.steps",
+                  fmt::format("stepped_potential.steps is empty; give at least one step, such as {}, or remove the table",
+                              keys::steps_example));
+  if (steps.size() > most_steps)
+    throw Refusal("stepped_potential.steps",
+                  fmt::format("stepped_potential.steps has {} steps; it must have {} at most", steps.size(), most_steps));
+  if (!(steps.front().width > 1.0))
+    throw Refusal(path_of_step(0) + ".width",
+                  fmt::format("{}.width is {}; it is the outer diameter in units of the diameter of a disk, so it must be above "
+                              "1, such as 1.2",
+                              path_of_step(0), steps.front().width));
+  for (std::size_t k = 1; k < steps.size(); ++k)
+    if (!(steps[k].width > steps[k - 1].width))
+      throw Refusal(path_of_step(k) + ".width",
+                    fmt::format("{}.width is {}, and the step before reaches {}; put the steps in order of width, from the "
+                                "core outwards",
+                                path_of_step(k), steps[k].width, steps[k - 1].width));
+  if (scene.effects.potential_steps().empty()) return;
+  const Radii radii = radii_of(scene);
+  double largest = 2.0 * radii.largest, smallest = 2.0 * radii.smallest;  // contact distances
+  for (const UnlikeContact& pair : unlike_contacts(scene))
+    largest = std::max(largest, pair.largest), smallest = std::min(smallest, pair.smallest);
+  const double reach = steps.back().width * largest;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double half = 0.5 * scene.box.lengths()[axis];
+    if (scene.box.periodic(axis) && !(reach < half * (1.0 - image_margin)))
+      throw Refusal(path_of_step(steps.size() - 1) + ".width",
+                    fmt::format("{}.width = {} reaches {:.6g} from disk to disk, but on a periodic axis it must stay a "
+                                "millionth below half of the length, {:.6g} in {}; make it smaller, or the box larger",
+                                path_of_step(steps.size() - 1), steps.back().width, reach, half, axis_names[axis]));
+    const double coordinate = largest_coordinate(scene.box, axis), least = least_thickness * coordinate;
+    double inner = 1.0;
+    for (std::size_t k = 0; k < steps.size(); inner = steps[k++].width) {
+      const double thickness = (steps[k].width - inner) * smallest;
+      if (thickness > least) continue;
+      throw Refusal(path_of_step(k) + ".width",
+                    fmt::format("{}.width is {}; it must be above {:.6g} + {:.3g} here: the step of the smallest disks is {:.3g} "
+                                "wide, and coordinates up to {:.6g} do not resolve it",
+                                path_of_step(k), steps[k].width, inner, least / smallest, thickness, coordinate));
+    }
   }
 }
 
@@ -178,6 +228,7 @@ void check_effects(const Scene& scene) {
   check_shear(scene);
   check_exclusions(scene.effects);
   check_square_well(scene);
+  check_stepped_potential(scene);
   check_walls(scene);
   check_equilibration(scene);
   check_growth(scene);

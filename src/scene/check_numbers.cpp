@@ -105,6 +105,11 @@ void check_numbers_of(const Effects& effects) {
   require("collision", effects.collision.roughness, keys::roughness);
   require("collision.elastic_below", effects.collision.elastic_below, keys::elastic_below);
   for (std::size_t w = 0; w < effects.walls.size(); ++w) check_wall(fmt::format("walls.{}", wall_names[w]), effects.walls[w]);
+  if (effects.stepped_potential)
+    for (std::size_t k = 0; k < effects.stepped_potential->steps.size(); ++k) {
+      require(path_of_step(k), effects.stepped_potential->steps[k].width, keys::step_width);
+      require(path_of_step(k), effects.stepped_potential->steps[k].energy, keys::step_energy);
+    }
   for (const EffectTraits& effect : all_effects()) {
     if (!effect.is_present(effects)) continue;
     for (const EffectNumber& number : effect.numbers) require(std::string(effect.name), number.value(effects), *number.key);

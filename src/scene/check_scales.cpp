@@ -120,6 +120,11 @@ std::vector<Drive> drives_of(const Scene& scene, const Sizes& sizes) {
   }
   if (const auto& well = effects.square_well)  // of a pair: its mass is half of that of a disk
     from_energy("square_well.depth", well->depth, 2.0L * std::abs(well->depth), 0.5 * sizes.lightest, 0.5 * sizes.heaviest);
+  if (effects.stepped_potential)
+    for (std::size_t k = 0; k < effects.stepped_potential->steps.size(); ++k) {
+      const double energy = effects.stepped_potential->steps[k].energy;
+      from_energy(path_of_step(k) + ".energy", energy, 2.0L * std::abs(energy), 0.5 * sizes.lightest, 0.5 * sizes.heaviest);
+    }
   return drives;
 }
 

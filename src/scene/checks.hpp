@@ -15,6 +15,9 @@
 
 namespace carom::detail {
 
+/// Returns the place of a step of the pair potential in a scene file: "stepped_potential.steps.0".
+std::string path_of_step(std::size_t k);
+
 /// Given positions may miss a wall or each other by this fraction of the contact distance: what decimal input rounds away.
 inline constexpr double touching = 1e-9;
 /// pi / (2 sqrt 3): no arrangement of equal disks is denser, in a rectangle or on a torus.

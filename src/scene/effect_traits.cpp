@@ -282,7 +282,7 @@ std::vector<EffectTraits> make_table() {
        .acts = has_other_than_zero<&Effects::shear, &Shear::rate>,
        .numbers = {number<&Effects::shear, &Shear::rate>(keys::shear_rate, "1 / time", 0.0, 0.001)},
        .words = [](const Effects& e) { return fmt::format("the flow is v_x = {:.6g} y (Lees-Edwards)", e.shear->rate); },
-       .excludes = {{"gravity", true}, {"obstacles", true}, {"growth", true}, {"square_well", true}},
+       .excludes = {{"gravity", true}, {"obstacles", true}, {"growth", true}, {"square_well", true}, {"stepped_potential", true}},
        .conserves_energy = false,
        .conserves_momentum = false,
        .changes_velocities_in_flight = true,
@@ -312,6 +312,28 @@ std::vector<EffectTraits> make_table() {
        .bytes_per_disk = 24,
        .why_no_path = "speeds change at the edges of wells",
        .why_no_transport = "wells carry energy of their own; remove [square_well]"},
+      {.name = "stepped_potential",
+       .title = "[stepped_potential]",
+       .absence = "stepped potentials",
+       .is_present = has<&Effects::stepped_potential>,
+       .acts = [](const Effects& e) { return e.stepped_potential && !e.potential_steps().empty(); },
+       .other_keys = {"steps"},
+       .words =
+           [](const Effects& e) {
+             const std::vector<PotentialStep>& steps = e.stepped_potential->steps;
+             constexpr std::size_t shown = 8;
+             std::vector<std::string> parts;
+             for (std::size_t k = 0; k < std::min(steps.size(), shown); ++k)
+               parts.push_back(fmt::format("{:.6g} below {:.6g}", steps[k].energy, steps[k].width));
+             if (steps.size() > shown) parts.push_back(fmt::format("{} more steps", steps.size() - shown));
+             return fmt::format("energy of a pair by its distance in diameters: {}, 0 beyond", fmt::join(parts, ", "));
+           },
+       .excludes = {{"growth"}, {"square_well", true}},
+       .has_potential_energy = true,
+       .lets_temperature_fluctuate = true,
+       .bytes_per_disk = 24,
+       .why_no_path = "speeds change at the edges of steps",
+       .why_no_transport = "pairs carry energy of their own; remove [stepped_potential]"},
       {.name = "drag",
        .title = "[drag]",
        .absence = "drag",
@@ -331,7 +353,8 @@ std::vector<EffectTraits> make_table() {
                     {"tumbling"},
                     {"brownian"},
                     {"shear"},
-                    {"square_well"}},
+                    {"square_well"},
+                    {"stepped_potential"}},
        .conserves_energy = false,
        .conserves_momentum = false,
        .conserves_angular_momentum = false,
@@ -414,6 +437,18 @@ namespace carom {
 Eigen::Vector2d Effects::acceleration() const { return gravity ? gravity->acceleration : Eigen::Vector2d(0.0, 0.0); }
 double Effects::growth_rate() const { return growth ? growth->rate : 0.0; }
 double Effects::shear_rate() const { return shear ? shear->rate : 0.0; }
+std::vector<PotentialStep> Effects::potential_steps() const {
+  std::vector<PotentialStep> all;
+  if (stepped_potential) all = stepped_potential->steps;
+  if (all.empty() && square_well) all = {{square_well->width, -square_well->depth}};
+  std::vector<PotentialStep> distinct;
+  for (const PotentialStep& step : all) {
+    if (!distinct.empty() && distinct.back().energy == step.energy) distinct.pop_back();
+    distinct.push_back(step);
+  }
+  if (!distinct.empty() && distinct.back().energy == 0.0) distinct.pop_back();
+  return distinct;
+}
 double Effects::drag_rate() const { return drag ? drag->rate : 0.0; }
 std::optional<double> Effects::bath_temperature() const {
   if (thermostat && thermostat->rate > 0.0) return thermostat->temperature;

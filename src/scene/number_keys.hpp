@@ -95,6 +95,10 @@ inline constexpr NumberKey shear_rate{"rate", "rate = 0.05"};
 inline constexpr NumberKey well_width{"width", "width = 1.5", Range::above_zero};
 inline constexpr NumberKey well_depth{"depth", "depth = 1.0"};
 
+inline constexpr std::string_view steps_example = "steps = [{ width = 1.2, energy = 1.0 }, { width = 1.6, energy = -0.5 }]";
+inline constexpr NumberKey step_width{"width", "{ width = 1.2, energy = 1.0 }", Range::above_zero};
+inline constexpr NumberKey step_energy{"energy", "{ width = 1.2, energy = 1.0 }"};
+
 inline constexpr NumberKey run_time{"time", "time = 5.0", Range::zero_or_more};
 inline constexpr NumberKey sample_every{"sample_every", "sample_every = 0.001", Range::above_zero};
 inline constexpr std::string_view counted_example = "sample_every = { collisions = 1000 }";

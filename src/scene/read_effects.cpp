@@ -19,6 +19,22 @@ Gravity read_gravity(const toml::table& node) {
       read_pair(table.require("acceleration", fmt::format("give it, such as {}", example)), table.path("acceleration"), example)};
 }
 
+SteppedPotential read_stepped_potential(const toml::table& node) {
+  const TableReader table(node, "stepped_potential", {"steps"});
+  const std::string expected = fmt::format("a list of tables, such as {}", keys::steps_example);
+  const toml::node& list = table.require("steps", fmt::format("give them, such as {}", keys::steps_example));
+  if (list.as_array() == nullptr) refuse(list, table.path("steps"), expected);
+  SteppedPotential potential;
+  for (const toml::node& entry : *list.as_array()) {
+    const std::string path = path_of_step(potential.steps.size());
+    if (entry.as_table() == nullptr)
+      refuse(entry, path, fmt::format("a table with a width and an energy, such as {}", keys::step_width.example));
+    const TableReader step(*entry.as_table(), path, {keys::step_width.name, keys::step_energy.name});
+    potential.steps.push_back({step.required_number(keys::step_width), step.required_number(keys::step_energy)});
+  }
+  return potential;
+}
+
 void read_end(const toml::table& node, Growth& growth) {
   const TableReader table(node, "growth.until", {"packing_fraction", "pressure"});
   growth.packing_fraction = table.number(keys::until_fraction);
@@ -62,6 +78,8 @@ void read_numbers(const toml::table& node, const EffectTraits& effect, Effects& 
 
 }  // namespace
 
+std::string path_of_step(std::size_t k) { return fmt::format("stepped_potential.steps.{}", k); }
+
 void read_effects(const TableReader& scene, Effects& effects) {
   const auto read = [&](const char* key, auto& effect, auto reader) {
     const toml::table* table = scene.table(key, fmt::format("[{}]", key));
@@ -70,6 +88,7 @@ void read_effects(const TableReader& scene, Effects& effects) {
   read("gravity", effects.gravity, read_gravity);
   read("walls", effects.walls, read_walls);
   if (const toml::node* obstacles = scene.find("obstacles")) effects.obstacles = read_obstacles(*obstacles);
+  read("stepped_potential", effects.stepped_potential, read_stepped_potential);
   for (const EffectTraits& effect : all_effects()) {
     if (effect.numbers.empty()) continue;
     if (const toml::table* table = scene.table(effect.name, fmt::format("[{}]", effect.name)))

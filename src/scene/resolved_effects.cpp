@@ -50,6 +50,13 @@ std::string walls(const std::array<WallProperties, 4>& walls) {
   return text.empty() ? text : "\n[walls]\n" + text;
 }
 
+std::string stepped_potential(const SteppedPotential& potential) {
+  std::vector<std::string> entries;
+  for (const PotentialStep& step : potential.steps)
+    entries.push_back(fmt::format("{{ width = {}, energy = {} }}", number_text(step.width), number_text(step.energy)));
+  return fmt::format("\n[stepped_potential]\nsteps = [{}]\n", fmt::join(entries, ", "));
+}
+
 std::string until(const Growth& growth) {
   const auto end = [](const char* key, double value) { return fmt::format("until = {{ {} = {} }}\n", key, number_text(value)); };
   if (growth.packing_fraction) return end("packing_fraction", *growth.packing_fraction);
@@ -86,6 +93,7 @@ std::string effects_toml(const Effects& effects) {
   if (effects.gravity) text += fmt::format("\n[gravity]\nacceleration = {}\n", pair_text(effects.gravity->acceleration));
   text += walls(effects.walls);
   for (const Obstacle& each : effects.obstacles) text += fmt::format("\n[[obstacles]]\n{}\n", obstacle_text(each));
+  if (effects.stepped_potential) text += stepped_potential(*effects.stepped_potential);
   for (const EffectTraits& effect : all_effects()) {
     if (effect.numbers.empty() || !effect.is_present(effects)) continue;
     text += fmt::format("\n[{}]\n", effect.name);

@@ -55,6 +55,6 @@ template <class Real>
 std::unique_ptr<AnyEngine> make_textbook(const Scene& scene, const Disks& disks, State start);
 
 /// Returns what keeps disks with these effects on one core, in half a sentence; empty where nothing does.
-[[nodiscard]] std::string why_not_threads(const Effects& effects);
+[[nodiscard]] std::string why_not_threads(const Effects& effects, const Disks& disks);
 
 }  // namespace carom::detail

@@ -169,7 +169,8 @@ std::string Simulation::why_not_threads() const {
   const std::string reason = parts_->engine->why_not_threads();
   if (reason.empty()) return reason;
   if (parts_->time_step) return "a fixed-step method runs on one core";
-  if (std::string of_effects = detail::why_not_threads(parts_->scene.effects); !of_effects.empty()) return of_effects;
+  if (std::string of_effects = detail::why_not_threads(parts_->scene.effects, parts_->disks); !of_effects.empty())
+    return of_effects;
   return reason;
 }
 void Simulation::set_threads(const Threads& threads) {

@@ -17,7 +17,7 @@ class ThreadedEngine final : public WrappedEngine {
  public:
   ThreadedEngine(const Box& box, const Disks& disks, State start, const Effects& effects, std::uint64_t seed)
       : WrappedEngine(std::make_unique<Adapter>(box, disks, std::move(start), effects, seed)),
-        why_not_threads_(detail::why_not_threads(effects)) {}
+        why_not_threads_(detail::why_not_threads(effects, disks)) {}
 
   [[nodiscard]] std::string why_not_threads() const override { return why_not_threads_; }
   void set_threads(const Threads& threads) override { share_out(threads, nullptr); }

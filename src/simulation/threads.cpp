@@ -6,7 +6,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 namespace carom::detail {
@@ -31,17 +33,38 @@ Threads with_domains(Threads threads, int ranks) {
   return threads;
 }
 
-std::string why_not_threads(const Effects& effects) {
+namespace {
+
+/// The room for partners in a message about a disk (parallel/disk_message.hpp).
+constexpr double most_partners = 24.0;
+
+/// Returns a bound of the number of disks within `width` contact distances of one: each holds a disk of the smallest size, as
+/// near to that one as it goes, and these fill no more than pi / sqrt(12) of the ring that they are in. Of equal disks and width
+/// 2: 21.
+double most_within(double width, const Disks& disks) {
+  if (disks.count() == 0) return 0.0;
+  const auto [smallest, largest] = std::minmax_element(disks.radius.begin(), disks.radius.end());
+  const double outer = width * 2.0 * *largest - *largest + 2.0 * *smallest;
+  return std::numbers::pi / std::sqrt(12.0) * (outer * outer - *largest * *largest) / (*smallest * *smallest);
+}
+
+}  // namespace
+
+std::string why_not_threads(const Effects& effects, const Disks& disks) {
   if (effects.tumbling && effects.tumbling->rate > 0.0) return "tumbles draw the directions of all disks in one order";
   if (effects.brownian && effects.brownian->rate > 0.0) return "the velocities of all disks are redrawn in one order";
   if (effects.bath_temperature()) return "the thermostat draws the velocities of all disks in one order";
   if (effects.shear_rate() != 0.0) return "the box is sheared";
   if (effects.drag_rate() > 0.0) return "drag slows the clock";
-  // No more than 18 disks fit within two diameters of one, and a message about a disk has room for 24.
-  if (effects.square_well && effects.square_well->depth != 0.0 && effects.square_well->width > 2.0)
-    return "wells are wider than two diameters";
-  if (effects.square_well && effects.square_well->depth != 0.0 && detail::effect_named("non_additivity").acts(effects))
-    return "in wells of disks whose diameters are not additive there may be more disks than a message holds";
+  if (const std::vector<PotentialStep> steps = effects.potential_steps(); !steps.empty()) {
+    if (steps.back().width > 2.0)
+      return effects.stepped_potential ? "the potential reaches farther than two diameters"
+                                       : "wells are wider than two diameters";
+    if (detail::effect_named("non_additivity").acts(effects))
+      return "in wells of disks whose diameters are not additive there may be more disks than a message holds";
+    if (most_within(steps.back().width, disks) > most_partners)
+      return "sizes differ so much that a disk may have too many others within reach of the potential";
+  }
   for (const WallProperties& wall : effects.walls) {
     if (wall.mass || wall.velocity.value_or(0.0) != 0.0) return "a wall moves";
     if (wall.temperature) return "a wall with a temperature draws the velocities of all disks in one order";

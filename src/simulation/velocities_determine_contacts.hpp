@@ -8,7 +8,7 @@ namespace carom {
 /// along the line of centres.
 [[nodiscard]] inline bool velocities_determine_contacts(const Effects& effects) {
   return effects.collision.rule == CollisionRule::specular && effects.collision.roughness.value_or(-1.0) == -1.0 &&
-         !(effects.square_well && effects.square_well->depth != 0.0);
+         effects.potential_steps().empty();
 }
 
 }  // namespace carom

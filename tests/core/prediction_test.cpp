@@ -4,6 +4,7 @@
 #include "core/prediction.hpp"
 #include "core/contact_time.hpp"
 #include "core/instructions.hpp"
+#include "core/pair_step.hpp"
 #include "core/unit_roundoff.hpp"
 #include "support/instructions.hpp"
 
@@ -296,14 +297,17 @@ TEST_P(PredictionKernels, DrawNewLinesOfDisksThatFallFromTheNearestStep) {
   }
 }
 
-TEST_P(PredictionKernels, DrawTheSameLinesInWells) {
+TEST_P(PredictionKernels, DrawTheSameLinesInSteps) {
   std::mt19937_64 random(6);
-  for (const auto& [in_wells, as] :
-       {std::pair(Contact::falling_wells, Contact::falling), std::pair(Contact::wells, Contact::hard)}) {
+  for (const auto& [in_steps, as] :
+       {std::pair(Contact::falling_steps, Contact::falling), std::pair(Contact::steps, Contact::hard)}) {
     for (int k = 0; k < 1'000; ++k) {
       Drawn drawn = draw(random, 2);
-      const std::vector<std::vector<std::int32_t>> nobody(2);
-      drawn.frame.inside = nobody.data();
+      const std::vector<std::vector<PairStep>> none(2);
+      const double edges[] = {1.0, 1.5};
+      drawn.frame.pair_steps = none.data();
+      drawn.frame.edges = edges;
+      drawn.frame.outside = 1;
       const List first(0, {1}), second(1, {0});
       const auto turned = [&](Contact contact) {
         std::vector<SizedFlight> lines = drawn.sized;
@@ -315,7 +319,7 @@ TEST_P(PredictionKernels, DrawTheSameLinesInWells) {
             .turn_and_predict(lines.data(), drawn.frame, pair, drawn.now, 0.9 * lines[0].v[0], 0.7 * lines[0].v[1], 0.0, 0.0);
         return lines;
       };
-      const auto lines = turned(in_wells), twins = turned(as);
+      const auto lines = turned(in_steps), twins = turned(as);
       for (std::size_t i = 0; i < 2; ++i)
         for (int axis = 0; axis < 2; ++axis) ASSERT_EQ(lines[i].x[axis], twins[i].x[axis]) << k;
     }

@@ -43,6 +43,10 @@ const std::map<std::string, std::function<void(Effects&)>> other_effects = {
     {"vibrating_walls", [](Effects& e) { e.walls[1].vibration = 0.25; }},
     {"moving_walls", [](Effects& e) { e.walls[1].velocity = -0.25; }},
     {"pistons", [](Effects& e) { e.walls[3] = {.mass = 1e6, .load = 1.0}; }},
+    {"stepped_potential",
+     [](Effects& e) {
+       e.stepped_potential = SteppedPotential{{{1.2, 0.5}, {1.5, -0.5}}};
+     }},
     {"obstacles",
      [](Effects& e) {
        e.obstacles = {DiskObstacle{{0.75, 0.5}, 1.0}};
@@ -156,6 +160,7 @@ TEST_P(EffectTraitsHold, MemoryPerDiskIsThatOfTheTable) {
     if (with) detail::set_numbers(scene.effects, effect, &detail::EffectNumber::mild);
     if (with && !scene.effects.obstacles.empty()) scene.effects.obstacles = {DiskObstacle{{4.0, 4.0}, 0.25}};
     if (with && scene.effects.square_well) scene.effects.square_well->width = 1.0 + 1e-9;  // no bonds
+    if (with && scene.effects.stepped_potential) scene.effects.stepped_potential->steps = {{1.0 + 1e-9, 0.5}};
     return static_cast<double>(make_simulation(scene, "general").bytes());
   };
   // The memory that does not depend on the number of disks cancels in the second difference.

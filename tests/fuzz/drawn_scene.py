@@ -9,12 +9,13 @@ import math
 import random
 
 FORBIDDEN = {
-    "shear": {"gravity", "obstacles", "growth", "square_well", "drag"},
-    "growth": {"shear", "square_well", "drag"},
-    "square_well": {"shear", "growth", "drag"},
+    "shear": {"gravity", "obstacles", "growth", "square_well", "stepped_potential", "drag"},
+    "growth": {"shear", "square_well", "stepped_potential", "drag"},
+    "square_well": {"shear", "growth", "drag", "stepped_potential"},
+    "stepped_potential": {"shear", "growth", "drag", "square_well"},
     "gravity": {"shear", "drag"},
     "obstacles": {"shear"},
-    "drag": {"shear", "growth", "square_well", "gravity", "thermostat"},
+    "drag": {"shear", "growth", "square_well", "stepped_potential", "gravity", "thermostat"},
     "thermostat": {"drag"},
 }
 OBSERVABLES = (
@@ -292,7 +293,7 @@ def draw_effects(r, scene, walled, gas):
     events = 10 ** r.uniform(0.5, 3.0)
     gas.time = min(2.0 * events / max(gas.count, 1) / rate_of_disk, 60.0 * crossing)
     gas.mean_free_time = min(1.0 / rate_of_disk, crossing)
-    wanted = [name for name in ("gravity", "walls", "obstacles", "growth", "thermostat", "shear", "square_well", "drag") if r.random() < 0.25]
+    wanted = [name for name in ("gravity", "walls", "obstacles", "growth", "thermostat", "shear", "square_well", "stepped_potential", "drag") if r.random() < 0.25]
     r.shuffle(wanted)
     if any(walled) and r.random() < 0.3 and "walls" not in wanted:
         wanted.append("walls")
@@ -336,6 +337,13 @@ def draw_effects(r, scene, walled, gas):
         if most > 1.02 or scene.bold:
             width = r.choice([most, r.uniform(1.01, max(most, 1.02)), r.uniform(1.01, max(most, 1.02))])
             tables["square_well"] = {"width": width, "depth": energy(r.choice([0.0, 0.1, 0.5, 2.0, -0.1, -0.5, -2.0, 10.0]))}
+    if "stepped_potential" in drawn:
+        short = [side for side, w in zip(gas.sides, walled) if not w] + [1e9]
+        most = min(0.5 * min(short) / (2.0 * gas.radius) * 0.999, 2.0)
+        if most > 1.02 or scene.bold:
+            widths = sorted(r.uniform(1.01, max(most, 1.02)) for _ in range(r.choice([1, 2, 3, 8])))
+            energies = [energy(r.choice([0.0, 0.0, 0.1, 0.5, 2.0, -0.1, -0.5, -2.0, 10.0])) for _ in widths]
+            tables["stepped_potential"] = {"steps": [{"width": w, "energy": e} for w, e in zip(widths, energies)]}
     if "obstacles" in tables:  # lists of tables come last in any order; the reader does not mind
         tables["obstacles"] = tables.pop("obstacles")
 
@@ -378,7 +386,7 @@ def draw_run(r, scene, gas):
     tables = scene.tables
     collisions = max(1, int(gas.count * gas.time / gas.mean_free_time / 2.0)) if gas.count > 1 else 0
     # A gas that need not go on colliding may never come to a number of collisions.
-    lasting = gas.count >= 8 and not {"gravity", "walls", "obstacles", "growth", "square_well", "thermostat", "drag"} & set(tables)
+    lasting = gas.count >= 8 and not {"gravity", "walls", "obstacles", "growth", "square_well", "stepped_potential", "thermostat", "drag"} & set(tables)
     lasting = lasting and "restitution" not in tables["collision"] and "elastic_below" not in tables["collision"]
     lasting = lasting and all("temperature" in one.get("velocities", {}) for one in tables["disks"])
     end = r.choice(["time", "time", "both"] + ["collisions"] * lasting)

@@ -63,6 +63,9 @@ TEST(Ranks, GiveTheBitsOfOneForScenesOfAllKinds) {
   Scene wells = lean_gas(3000, 0.3, Boundary::periodic);
   wells.effects.square_well = SquareWell{.width = 1.6, .depth = 0.8};
   expect_same_runs_on(3, wells, {}, 8.0, 3, "wells");
+  Scene stepped = lean_gas(3000, 0.3, Boundary::periodic);
+  stepped.effects.stepped_potential = SteppedPotential{{{1.2, 0.4}, {1.7, -0.6}}};
+  expect_same_runs_on(3, stepped, {}, 6.0, 3, "stepped");
 }
 
 /// Where domains are so small that one has more neighbours than it can tell apart, there are fewer of them.

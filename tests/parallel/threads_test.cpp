@@ -94,6 +94,25 @@ TEST(Threads, GiveTheBitsOfOneForDisksWithWells) {
   expect_same_runs(scene, {.domains = 3}, 6.0, 2);
 }
 
+TEST(Threads, GiveTheBitsOfOneForDisksWithSteppedPotentials) {
+  Scene scene = lean_gas(4000, 0.3, Boundary::periodic);
+  scene.effects.stepped_potential = SteppedPotential{{{1.1, 0.5}, {1.3, -0.4}, {1.6, 0.2}, {1.9, -0.1}}};
+  expect_same_runs(scene, {.threads = 2, .domains = 4}, 6.0, 4);
+  expect_same_runs(scene, {.threads = 3, .domains = 3}, 6.0, 2);
+}
+
+TEST(Threads, ArePutAsideWhereADiskMayHaveMorePartnersThanAMessageHolds) {
+  Scene scene = mixture_scene(64, 0.3, Boundary::periodic);
+  scene.effects.square_well = SquareWell{1.5, 0.5};
+  for (Species& species : scene.species) species.radius = 0.5;
+  EXPECT_EQ(make_simulation(scene).why_not_threads(), "");
+  scene.species[0].radius = 0.1;
+  EXPECT_EQ(make_simulation(scene).why_not_threads(),
+            "sizes differ so much that a disk may have too many others within reach of the potential");
+  scene.effects.square_well.reset();
+  EXPECT_EQ(make_simulation(scene).why_not_threads(), "");
+}
+
 /// Velocities are scaled each time that a disk has collided once on average, and lists are made for larger disks now and then.
 TEST(Threads, GiveTheBitsOfOneWhereDisksGrow) {
   Scene scene = lean_gas(4000, 0.3, Boundary::periodic);

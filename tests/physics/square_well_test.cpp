@@ -2,14 +2,13 @@
 
 #include "observe/energy.hpp"
 #include "observe/mechanics.hpp"
-#include "support/block_means.hpp"
 #include "support/effect_scenes.hpp"
+#include "support/jumps_of_g.hpp"
 
 #include <carom/observe.hpp>
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -38,35 +37,11 @@ TEST(PhysicsSquareWell, EnergyIsKeptOverAMillionEvents) {
   }
 }
 
-/// g(lambda sigma -) / g(lambda sigma +), from pairs in narrow shells on either side, drawn out to the edge by a straight line.
+/// g(lambda sigma -) / g(lambda sigma +), drawn out to the edge from both sides.
 void expect_jump(double depth) {
-  const Scene scene = wells(depth);
-  Simulation gas = make_simulation(scene);
-  gas.run_until(1e9, {.collisions = 256 * 50});
-  gas.reset_clock();
-  // Four shells of width 0.02 on each side.
-  constexpr double width = 0.02;
-  BlockMeans temperature(50), inner(50), outer(50);
-  for (int k = 1; k <= 2000; ++k) {
-    gas.run_until(k * 2.0);
-    const State state = gas.state();
-    temperature.add(kinetic_temperature(scene.box, scene.effects, gas.disks(), state));
-    std::array<double, 8> count{};
-    for (Eigen::Index i = 0; i < 256; ++i)
-      for (Eigen::Index j = 0; j < i; ++j) {
-        Eigen::Vector2d r = state.positions.col(i) - state.positions.col(j);
-        for (int a = 0; a < 2; ++a) r[a] -= scene.box.lengths()[a] * std::round(r[a] / scene.box.lengths()[a]);
-        const double shell = (r.norm() - 1.5) / width + 4.0;
-        if (shell >= 0.0 && shell < 8.0) count[static_cast<std::size_t>(shell)] += 1.0 / r.norm();
-      }
-    // The value at the edge of the least-squares line through four shells at distances 1/2, 3/2, 5/2, 7/2.
-    const auto at_edge = [](double a, double b, double c, double d) { return 0.85 * a + 0.45 * b + 0.05 * c - 0.35 * d; };
-    inner.add(at_edge(count[3], count[2], count[1], count[0]));
-    outer.add(at_edge(count[4], count[5], count[6], count[7]));
-  }
-  const double jump = inner.mean() / outer.mean();
-  const double error = jump * std::hypot(inner.error() / inner.mean(), outer.error() / outer.mean());
-  const double expected = std::exp(depth / temperature.mean());
+  const JumpsOfG found = jumps_of_g(wells(depth));
+  const auto [jump, error] = found.jumps.at(0);
+  const double expected = std::exp(depth / found.temperature);
   EXPECT_NEAR(jump, expected, 5 * error) << "5 standard errors over 40 blocks";
   EXPECT_LT(error, 0.05 * expected) << "an error so large that it would hide everything";
   testing::Test::RecordProperty((testing::Message() << "depth_" << depth).GetString(),

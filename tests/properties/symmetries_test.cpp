@@ -187,6 +187,8 @@ Scene in_other_units(Scene scene, int a, int b) {
   if (effects.thermostat) scale(effects.thermostat->temperature, 2 * (a - b)), scale(effects.thermostat->rate, -b);
   if (effects.shear) scale(effects.shear->rate, -b);
   if (effects.square_well) scale(effects.square_well->depth, 2 * (a - b));
+  if (effects.stepped_potential)
+    for (PotentialStep& step : effects.stepped_potential->steps) scale(step.energy, 2 * (a - b));
   scale_if(scene.run.time, b);
   return scene;
 }

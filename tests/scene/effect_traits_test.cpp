@@ -64,6 +64,7 @@ TEST(EffectTraits, KnowsWhichTablesHaveAKey) {
   EXPECT_EQ(detail::tables_with_key("rate"), "[growth], [thermostat], [tumbling], [brownian], [shear] or [drag]");
   EXPECT_EQ(detail::tables_with_key("depth"), "[square_well]");
   EXPECT_EQ(detail::tables_with_key("until"), "[growth]");
+  EXPECT_EQ(detail::tables_with_key("steps"), "[stepped_potential]");
   EXPECT_EQ(detail::tables_with_key("mass"), "");
 }
 
@@ -102,6 +103,16 @@ TEST(EffectTraits, CountsObstaclesInWords) {
   EXPECT_EQ(words(), "2 fixed disks and 1 fixed segment");
   effects.obstacles = {ArcObstacle{{0.0, 0.0}, 1.0, 0.0, 90.0}, ArcObstacle{{2.0, 0.0}, 1.0, 0.0, 90.0}};
   EXPECT_EQ(words(), "2 fixed arcs");
+}
+
+TEST(EffectTraits, TellsTheStepsOfAPotentialInWords) {
+  Effects effects;
+  effects.stepped_potential = SteppedPotential{{{1.2, 1.5}, {1.6, -0.5}}};
+  EXPECT_EQ(detail::effect_named("stepped_potential").words(effects),
+            "energy of a pair by its distance in diameters: 1.5 below 1.2, -0.5 below 1.6, 0 beyond");
+  effects.stepped_potential->steps.clear();
+  for (int k = 0; k < 10; ++k) effects.stepped_potential->steps.push_back({1.1 + 0.1 * k, 1.0 - 0.1 * k});
+  EXPECT_TRUE(detail::effect_named("stepped_potential").words(effects).ends_with("0.3 below 1.8, 2 more steps, 0 beyond"));
 }
 
 TEST(EffectTraits, TellsWhereSpeedsChangeBetweenCollisions) {

@@ -52,6 +52,8 @@ depth = -1.0
               testing::HasSubstr("\n" + effects + "\n[run]\n"));
   const std::string growth = "[growth]\nrate = 0.01\nuntil = { pressure = 1000000.0 }\n";
   EXPECT_THAT(resolved_toml(parse_scene(changed({{"[run]", growth + "[run]"}}))), testing::HasSubstr("\n" + growth));
+  const std::string steps = "[stepped_potential]\nsteps = [{ width = 1.2, energy = 1.5 }, { width = 1.6, energy = -0.5 }]\n";
+  EXPECT_THAT(resolved_toml(parse_scene(changed({{"[run]", steps + "[run]"}}))), testing::HasSubstr("\n" + steps));
   const std::string shear = "[shear]\nrate = -0.05\n";
   EXPECT_THAT(resolved_toml(parse_scene(changed({{"\"walls\"", "\"periodic\""}, {"[run]", shear + "[run]"}}))),
               testing::HasSubstr("\n" + shear));
@@ -63,6 +65,17 @@ std::string entry(const std::string& key, double value) { return key + " = " + n
 /// The small scene with effects that go together.
 class EffectsMaker {
  public:
+  static std::string stepped_potential() {
+    std::string steps;
+    double width = 1.0;
+    const int count = *rc::gen::inRange(1, 9);
+    for (int k = 0; k < count; ++k) {
+      width += 0.01 + 0.1 * unit_interval();
+      steps += (k > 0 ? ", { " : "{ ") + entry("width", width) + ", " + entry("energy", moderate_double()) + " }";
+    }
+    return "[stepped_potential]\nsteps = [" + steps + "]\n";
+  }
+
   std::string make() {
     for (bool& axis : periodic_) axis = maybe();
     std::string text = collision();
@@ -78,6 +91,8 @@ class EffectsMaker {
         text += growth();
       } else if (maybe()) {
         text += "[square_well]\n" + entry("width", 1.5 + unit_interval()) + "\n" + entry("depth", moderate_double()) + "\n";
+      } else if (maybe()) {
+        text += stepped_potential();
       }
     }
     if (maybe())

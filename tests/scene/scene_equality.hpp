@@ -5,6 +5,7 @@
 
 #include <carom/scene.hpp>
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <optional>
@@ -71,6 +72,14 @@ inline std::string first_difference(const Effects& a, const Effects& b) {
   if (differ(a.square_well, b.square_well, &SquareWell::width, &SquareWell::depth)) return "square_well";
   if (differ(a.non_additivity, b.non_additivity, &NonAdditivity::delta)) return "non_additivity";
   if (a.non_additivity && a.non_additivity->pairs != b.non_additivity->pairs) return "pairs of non_additivity";
+  const auto steps = [](const Effects& effects) {
+    return effects.stepped_potential ? effects.stepped_potential->steps : std::vector<PotentialStep>{};
+  };
+  const auto same_step = [](const PotentialStep& s, const PotentialStep& t) {
+    return s.width == t.width && s.energy == t.energy;
+  };
+  if (a.stepped_potential.has_value() != b.stepped_potential.has_value() || !std::ranges::equal(steps(a), steps(b), same_step))
+    return "stepped_potential";
   return {};
 }
 

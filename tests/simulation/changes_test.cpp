@@ -82,6 +82,16 @@ std::vector<Change> changes() {
          e.square_well = SquareWell{1.3, 0.5};
        },
        [](Effects& e) { e.square_well.reset(); }},
+      {"StepsFlatter",
+       [](Effects& e) {
+         e.stepped_potential = SteppedPotential{{{1.2, 0.5}, {1.4, -0.5}}};
+       },
+       [](Effects& e) { e.stepped_potential->steps[0].energy = 0.25; }},
+      {"StepsGone",
+       [](Effects& e) {
+         e.stepped_potential = SteppedPotential{{{1.2, 0.5}, {1.4, -0.5}}};
+       },
+       [](Effects& e) { e.stepped_potential.reset(); }},
       {"Thermostat", nothing,
        [](Effects& e) {
          e.thermostat = Thermostat{1.0, 0.5};
@@ -304,9 +314,8 @@ TEST(Changes, LeaveDisksThatStopGrowingAsLargeAsTheyAre) {
   EXPECT_THAT(simulation.check_invariants(), testing::IsEmpty());
 }
 
-TEST(Changes, KeepTheEnergyOfWellsAtTheirVeryEdge) {
-  Scene scene = gas_scene(30, 0.2, Boundary::periodic);
-  scene.effects.square_well = SquareWell{1.5, 0.5};
+/// Changes nothing after each passage of an edge of the pair potential.
+void expect_pairs_kept_at_edges(const Scene& scene) {
   for (const char* engine : engines_with_effects) {
     Simulation simulation = make_simulation(scene, engine);
     const double energy = energy_of(simulation);
@@ -316,13 +325,23 @@ TEST(Changes, KeepTheEnergyOfWellsAtTheirVeryEdge) {
       (void)simulation.step();
       if (simulation.counts().well == before) continue;
       ++passed;
-      const std::uint64_t bonds = simulation.state().bonds;
+      const State before_change = simulation.state();
       simulation.set_effects(simulation.scene().effects);  // the two are at the edge now
-      ASSERT_EQ(simulation.state().bonds, bonds) << engine << ", event " << k;
+      ASSERT_EQ(simulation.state().bonds, before_change.bonds) << engine << ", event " << k;
+      ASSERT_EQ(simulation.state().pairs_in_steps, before_change.pairs_in_steps) << engine << ", event " << k;
     }
     EXPECT_GT(passed, 20U);
     EXPECT_NEAR(energy_of(simulation), energy, 1e-11 * energy) << engine;
   }
+}
+
+TEST(Changes, KeepTheEnergyOfPairsAtTheVeryEdgeOfWellsAndSteps) {
+  Scene scene = gas_scene(30, 0.2, Boundary::periodic);
+  scene.effects.square_well = SquareWell{1.5, 0.5};
+  expect_pairs_kept_at_edges(scene);
+  scene.effects.square_well.reset();
+  scene.effects.stepped_potential = SteppedPotential{{{1.2, 0.5}, {1.4, -0.5}, {1.7, 0.2}}};
+  expect_pairs_kept_at_edges(scene);
 }
 
 TEST(Changes, MayBeMadeByAConditionAtEveryEvent) {

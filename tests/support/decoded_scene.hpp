@@ -119,7 +119,13 @@ inline std::string decoded_effects(Bytes& bytes, const std::array<double, 4>& bo
   if ((which & 16) != 0) text += fmt::format("[shear]\nrate = {}\n", bytes.component());
   if ((which & 32) != 0) {
     const double width = 1.0 + 0.5 * bytes.unit(), depth = bytes.component();
-    text += fmt::format("[square_well]\nwidth = {}\ndepth = {}\n", width, depth);
+    if (bytes.flag()) {
+      const double wider = width + 0.5 * bytes.unit(), energy = bytes.component();
+      text += fmt::format("[stepped_potential]\nsteps = [{{ width = {}, energy = {} }}, {{ width = {}, energy = {} }}]\n", width,
+                          depth, wider, energy);
+    } else {
+      text += fmt::format("[square_well]\nwidth = {}\ndepth = {}\n", width, depth);
+    }
   }
   const auto along = [&](std::size_t axis) { return box[2 * axis] + bytes.unit() * (box[2 * axis + 1] - box[2 * axis]); };
   if ((which & 64) != 0) {

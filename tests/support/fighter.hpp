@@ -128,7 +128,9 @@ inline Fighter fight(const Scene& scene, const std::string& engine, std::uint64_
   double turnover = largest + std::abs(totals.dissipated) + std::abs(totals.thermostat_energy) + std::abs(totals.growth_energy) +
                     std::abs(totals.shear_energy) + pumped(scene, disks, totals);
   for (const double energy : totals.wall_energy) turnover += std::abs(energy);
-  if (totals.well > 0) turnover += std::abs(scene.effects.square_well->depth);  // in and out again between two looks
+  double highest = 0.0;
+  for (const PotentialStep& step : scene.effects.potential_steps()) highest = std::max(highest, std::abs(step.energy));
+  if (totals.well > 0) turnover += highest;  // in and out again between two looks
   const State end = running->state();
   for (int axis = 0; axis < 2 && !scene.effects.growth; ++axis) {
     double gained = 0.0, size = 0.0;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <vector>
 
 namespace carom::test {
 namespace {
@@ -54,6 +55,85 @@ TEST(SingleFile, FirstTermInOneOverN) {
   // The pressure on the walls of N disks was seen to be less by some 3.2 / N.
   const double infinite = single_file(1.8, 1.0).wall_pressure;
   EXPECT_NEAR(400.0 * (single_file(1.8, 1.0, 400).wall_pressure - infinite), -3.18, 0.03);
+}
+
+/// Steps of a potential for channels of width up to 1.6, where second neighbours are 1.6 apart at least, to rounding.
+const std::vector<PotentialStep> steps = {{1.2, 0.9}, {1.59, -0.7}};
+
+TEST(SingleFile, OfStepsOfNoEnergyIsThatOfHardDisks) {
+  const theory::SingleFile hard = single_file(1.6, 1.1, 50), same = single_file(1.6, 1.1, 50, {{1.2, 0.0}, {1.5, 0.0}});
+  EXPECT_EQ(same.force, hard.force);
+  EXPECT_EQ(same.wall_pressure, hard.wall_pressure);
+  EXPECT_EQ(same.energy, 0.0);
+  const theory::SingleFile one = single_file(1.6, 1.1, {{1.4, -0.5}}), split = single_file(1.6, 1.1, {{1.2, -0.5}, {1.4, -0.5}});
+  EXPECT_NEAR(split.force, one.force, 1e-12);
+  EXPECT_NEAR(split.energy, one.energy, 1e-12);
+}
+
+TEST(SingleFile, OfStepsInAChannelWithoutRoomIsTheIntegralOverDistances) {
+  // On a line the mean distance and energy of neighbours at force p are those of the weight exp(-p x - u(x)).
+  using Rule = boost::math::quadrature::gauss<double, 30>;
+  for (const double length : {1.15, 1.4, 3.0}) {
+    const theory::SingleFile found = single_file(1.001, length, steps);
+    double weight = 0.0, distance = 0.0, energy = 0.0, from = 1.0;
+    const auto add = [&](double to, double u) {
+      const auto w = [&](double x) { return std::exp(-found.force * x - u); };
+      weight += Rule::integrate(w, from, to);
+      distance += Rule::integrate([&](double x) { return x * w(x); }, from, to);
+      energy += u * Rule::integrate(w, from, to);
+      from = to;
+    };
+    for (const PotentialStep& step : steps) add(step.width, step.energy);
+    for (int k = 1; k <= 200; ++k) add(1.59 + 0.5 * k / found.force, 0.0);
+    EXPECT_NEAR(distance / weight, length, 1e-6) << "the channel leaves 1e-6 / 4";
+    EXPECT_NEAR(energy / weight, found.energy, 2e-6);
+  }
+}
+
+TEST(SingleFile, OfFewDisksWithStepsHasTheirSecondVirialCoefficient) {
+  using Rule = boost::math::quadrature::gauss<double, 30>;
+  constexpr double h = 0.6, length = 1e4;
+  const auto excluded = [&](double dy) {
+    double sum = 0.0, before = 0.0, weight = 0.0;
+    const auto add = [&](double width, double next) {
+      const double a = std::sqrt(width * width - dy * dy);
+      sum += (1.0 - weight) * (a - before);
+      before = a, weight = next;
+    };
+    add(1.0, std::exp(-0.9));
+    add(1.2, std::exp(0.7));
+    add(1.59, 1.0);
+    return sum;
+  };
+  const double mean =
+      Rule::integrate([&](double y) { return Rule::integrate([&](double z) { return excluded(y - z); }, 0.0, h); }, 0.0, h) /
+      (h * h);
+  EXPECT_NEAR(length * (single_file(1.0 + h, length, steps).force * length - 1.0), mean, 10.0 / length);
+}
+
+TEST(SingleFile, ForcesAndEnergyOfStepsAreSlopesOfOneFreeEnergy) {
+  // ln Z per disk is a function f(l, h, beta) with slopes p, l P and -u. Central differences err by step^2.
+  constexpr double h = 0.6, length = 1.1, step = 1e-4;
+  const auto at = [&](double l, double range, double beta) {
+    std::vector<PotentialStep> scaled = steps;
+    for (PotentialStep& one : scaled) one.energy *= beta;
+    return single_file(1.0 + range, l, scaled);
+  };
+  const auto slope = [&](auto&& f) { return (f(step) - f(-step)) / (2.0 * step); };
+  EXPECT_NEAR(slope([&](double d) { return at(length, h + d, 1.0).force; }),
+              slope([&](double d) { return at(length + d, h, 1.0).wall_pressure * (length + d); }), 1e-5);
+  EXPECT_NEAR(slope([&](double d) { return at(length + d, h, 1.0).energy; }),
+              -slope([&](double d) { return at(length, h, 1.0 + d).force; }), 1e-5);
+  EXPECT_NEAR(slope([&](double d) { return at(length, h + d, 1.0).energy; }),
+              -slope([&](double d) { return at(length, h, 1.0 + d).wall_pressure * length; }), 1e-5);
+}
+
+TEST(SingleFile, StepsThatReachSecondNeighboursAreRefused) {
+  EXPECT_NO_THROW((void)single_file(1.6, 1.1, {{1.59, 1.0}}));
+  EXPECT_THROW((void)single_file(1.6, 1.1, {{1.61, 1.0}}), std::invalid_argument);
+  EXPECT_THROW((void)single_file(1.6, 1.1, {{1.4, 1.0}, {1.3, 1.0}}), std::invalid_argument);
+  EXPECT_THROW((void)single_file(1.6, 1.1, {{1.0, 1.0}}), std::invalid_argument);
+  EXPECT_THROW((void)single_file(1.6, 1.1, {{1.3, std::nan("")}}), std::invalid_argument);
 }
 
 TEST(SingleFile, WhereDisksCanPassOrDoNotFitIsRefused) {

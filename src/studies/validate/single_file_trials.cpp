@@ -10,6 +10,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace carom::validation {
 
@@ -35,21 +39,74 @@ class WallPressure final : public Observable {
   bool begun_ = false;
 };
 
-TrialResult channel(const std::string& trial, double width, double length_per_disk, const Effort& effort) {
-  TrialResult result{.trial = trial};
-  constexpr std::int64_t disks = 200;
-  const double length = length_per_disk * disks;
-  // A zigzag, as wide as leaves neighbours and walls the same room.
+/// What a channel along x at kT = 1 tells between samples: the force along it, the force on both walls over twice its length, and
+/// the potential energy per disk. Over a long time the force along y of disks on each other is that of the walls on disks, less
+/// kT for each disk; what is left of the virial is that along x.
+class ForcesAndEnergy final : public Observable {
+ public:
+  struct Means {
+    Blocking force, wall_pressure, energy;
+  };
+  ForcesAndEnergy(double step, const Scene& scene, Means& means)
+      : step_(step),
+        length_(scene.box.lengths().x()),
+        swing_(0.5 * (scene.box.lengths().y() - 1.0)),
+        disks_(static_cast<double>(scene.disk_count())),
+        steps_(scene.effects.potential_steps()),
+        means_(means) {}
+  [[nodiscard]] std::string name() const override { return "forces_and_energy"; }
+  [[nodiscard]] double step() const override { return step_; }
+  void sample(const State& state, const Totals& totals) override {
+    const double impulse = totals.wall_impulse[2] + totals.wall_impulse[3];
+    if (begun_) {
+      const double pushed = impulse - impulse_before_;
+      means_.force.add((2.0 * disks_ + (totals.virial - virial_before_ - swing_ * pushed) / step_) / length_);
+      means_.wall_pressure.add(pushed / (2.0 * length_ * step_));
+    }
+    double energy = 0.0;
+    for (std::size_t k = 0; k < steps_.size(); ++k) energy += steps_[k].energy * static_cast<double>(state.pairs_in_steps[k]);
+    means_.energy.add(energy / disks_);
+    begun_ = true;
+    impulse_before_ = impulse;
+    virial_before_ = totals.virial;
+  }
+  [[nodiscard]] Measurement finish(double, const Totals&) override { return {.name = name()}; }
+
+ private:
+  double step_, length_, swing_, disks_;
+  std::vector<PotentialStep> steps_;
+  Means& means_;
+  double impulse_before_ = 0.0, virial_before_ = 0.0;
+  bool begun_ = false;
+};
+
+/// A zigzag along a channel, as wide as leaves neighbours and walls the same room.
+ListedPositions zigzag(std::int64_t disks, double width, double length_per_disk) {
   const double closest = std::sqrt(std::max(0.0, 1.0 - length_per_disk * length_per_disk));
   const double swing = 0.5 * (closest + width - 1.0);
   ListedPositions places;
   for (std::int64_t i = 0; i < disks; ++i)
     places.values.emplace_back((static_cast<double>(i) + 0.5) * length_per_disk, 0.5 * (width + (i % 2 == 0 ? swing : -swing)));
-  const Scene scene{
-      .box = {.upper = {length, width}, .boundary = {Boundary::periodic, Boundary::walls}},
-      .species = {{.count = disks, .radius = 0.5, .mass = 1.0, .positions = places, .velocities = MaxwellVelocities{1.0}}},
-      .run = run_of(effort.collisions(3e6), 500.0, effort.seed_of(0)),
-      .observe = {{.name = "pressure"}}};
+  return places;
+}
+
+Scene channel_scene(std::int64_t disks, double width, double length_per_disk, const Run& run) {
+  return {
+      .box = {.upper = {length_per_disk * static_cast<double>(disks), width}, .boundary = {Boundary::periodic, Boundary::walls}},
+      .species = {{.count = disks,
+                   .radius = 0.5,
+                   .mass = 1.0,
+                   .positions = zigzag(disks, width, length_per_disk),
+                   .velocities = MaxwellVelocities{1.0}}},
+      .run = run};
+}
+
+TrialResult channel(const std::string& trial, double width, double length_per_disk, const Effort& effort) {
+  TrialResult result{.trial = trial};
+  constexpr std::int64_t disks = 200;
+  const double length = length_per_disk * disks;
+  Scene scene = channel_scene(disks, width, length_per_disk, run_of(effort.collisions(3e6), 500.0, effort.seed_of(0)));
+  scene.observe = {{.name = "pressure"}};
   Blocking pressure;
   std::vector<std::unique_ptr<Observable>> own;
   own.push_back(std::make_unique<WallPressure>(1.0, length, pressure));
@@ -72,6 +129,37 @@ TrialResult channel(const std::string& trial, double width, double length_per_di
   return result;
 }
 
+/// Disks with a stepped potential, in a bath of kT = 1.
+TrialResult stepped_channel(const std::string& trial, double width, double length_per_disk,
+                            const std::vector<PotentialStep>& steps, const Effort& effort) {
+  TrialResult result{.trial = trial};
+  constexpr std::int64_t disks = 200;
+  Scene scene = channel_scene(disks, width, length_per_disk, run_of(effort.collisions(2e6), 200.0, effort.seed_of(0)));
+  scene.effects.stepped_potential = SteppedPotential{steps};
+  scene.effects.thermostat = Thermostat{1.0, 0.5};
+  ForcesAndEnergy::Means means;
+  std::vector<std::unique_ptr<Observable>> own;
+  own.push_back(std::make_unique<ForcesAndEnergy>(1.0, scene, means));
+  (void)run(scene, effort, result, std::move(own));
+  const theory::SingleFile exact = theory::single_file(width, length_per_disk, disks, steps);
+  std::string potential;
+  for (const PotentialStep& step : steps) potential += fmt::format(", {:g} kT within {:g}", step.energy, step.width);
+  const std::string what =
+      fmt::format("{} disks in a channel of width {:g}, {:g} long for each{}", disks, width, length_per_disk, potential);
+  const auto put = [&](const char* quantity, double expected, const Blocking& measured) {
+    const auto estimate = measured.estimate();
+    result.checks.push_back({.name = fmt::format("{}, {}", quantity, what),
+                             .theory = "transfer matrix with steps, with the first term in 1/N",
+                             .source = "Montero & Santos, arXiv:2402.15192 (2024); 1/N: docs/validation.md",
+                             .expected = expected,
+                             .measured = {estimate->mean, estimate->error.value_or(NAN)}});
+  };
+  put("force along the channel over kT / sigma", exact.force, means.force);
+  put("pressure on its walls over kT / sigma^2", exact.wall_pressure, means.wall_pressure);
+  put("potential energy of a disk over kT", exact.energy, means.energy);
+  return result;
+}
+
 }  // namespace
 
 void add_single_file(std::vector<Trial>& trials) {
@@ -82,6 +170,16 @@ void add_single_file(std::vector<Trial>& trials) {
     const std::string name = fmt::format("single-file-{:g}-{:g}", at.width, at.length);
     trials.push_back(
         {name, "single file", false, [=](const Effort& effort) { return channel(name, at.width, at.length, effort); }});
+  }
+  struct Stepped {
+    double width, length;
+    std::vector<PotentialStep> steps;
+  };
+  for (const Stepped& at :
+       {Stepped{1.5, 1.2, {{1.2, 1.0}, {1.6, -1.0}}}, Stepped{1.8, 1.1, {{1.05, -1.0}, {1.1, 0.0}, {1.19, 0.5}}}}) {
+    const std::string name = fmt::format("single-file-steps-{:g}-{:g}", at.width, at.length);
+    trials.push_back({name, "single file", false,
+                      [=](const Effort& effort) { return stepped_channel(name, at.width, at.length, at.steps, effort); }});
   }
 }
 
