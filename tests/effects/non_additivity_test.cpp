@@ -115,7 +115,7 @@ TEST(NonAdditivity, WellsReachAsFarAsTheirWidthTimesTheContactDistance) {
 }
 
 /// A mixture of three species of different sizes, dense enough that lists and epochs matter.
-Scene mixture(double delta, Boundary boundary = Boundary::periodic, double side = 24.0) {
+Scene unlike_mixture(double delta, Boundary boundary = Boundary::periodic, double side = 24.0) {
   Scene scene = scene_of(box_of(side, side, boundary), {species_of(60, 0.5, 1.0, RandomPositions{}, MaxwellVelocities{1.0}),
                                                         species_of(60, 0.4, 2.0, RandomPositions{}, MaxwellVelocities{1.0}),
                                                         species_of(20, 0.9, 1.0, RandomPositions{}, MaxwellVelocities{1.0})});
@@ -125,7 +125,7 @@ Scene mixture(double delta, Boundary boundary = Boundary::periodic, double side 
 
 TEST(NonAdditivity, StartsLeaveOutNoContactDistanceAndNoMoreThanThat) {
   for (const double delta : {-0.6, 0.4}) {
-    const Scene scene = mixture(delta);
+    const Scene scene = unlike_mixture(delta);
     const Simulation simulation = make_simulation(scene);
     EXPECT_EQ(deepest_overlap(scene.box, scene.effects, simulation.disks(), simulation.state()).relative, 0.0) << delta;
     const double as_additive = deepest_overlap(scene.box, Effects{}, simulation.disks(), simulation.state()).relative;
@@ -137,7 +137,7 @@ TEST(NonAdditivity, EnginesStaySoundAndKeepWhatIsConserved) {
   for (const double delta : {-0.9, -0.3, 0.3})
     for (const Boundary boundary : {Boundary::periodic, Boundary::walls})
       for (const char* engine : engines_with_effects) {
-        Simulation simulation = make_simulation(mixture(delta, boundary), engine);
+        Simulation simulation = make_simulation(unlike_mixture(delta, boundary), engine);
         const double before = energy_of(simulation);
         simulation.run_until(1e9, {.collisions = 3000});
         EXPECT_EQ(simulation.check_invariants(), std::vector<std::string>{}) << engine << " " << delta;
@@ -150,7 +150,7 @@ TEST(NonAdditivity, EnginesStaySoundAndKeepWhatIsConserved) {
 TEST(NonAdditivity, BothEnginesSeeTheSameEvents) {
   for (const double delta : {-0.9, -0.3, 0.3}) {
     std::vector<std::vector<Event>> seen;
-    for (const char* engine : engines_with_effects) seen.push_back(run(mixture(delta), engine, 1e9, 150).events);
+    for (const char* engine : engines_with_effects) seen.push_back(run(unlike_mixture(delta), engine, 1e9, 150).events);
     ASSERT_EQ(seen[0].size(), seen[1].size());
     for (std::size_t k = 0; k < seen[0].size(); ++k) {  // one collision per disk multiplies rounding by some hundred in all
       ASSERT_EQ(seen[0][k].disk, seen[1][k].disk) << delta << " event " << k;
@@ -163,7 +163,7 @@ TEST(NonAdditivity, BothEnginesSeeTheSameEvents) {
 TEST(NonAdditivity, FindsItsWayBack) {
   for (const double delta : {-0.4, 0.3})
     for (const char* engine : engines_with_effects) {
-      Simulation simulation = make_simulation(mixture(delta), engine);
+      Simulation simulation = make_simulation(unlike_mixture(delta), engine);
       const State start = simulation.state();
       simulation.run_until(1.5);
       ASSERT_GT(simulation.counts().pair, 50U);
@@ -175,21 +175,21 @@ TEST(NonAdditivity, FindsItsWayBack) {
 }
 
 TEST(NonAdditivity, OfZeroLeavesTheSameBitsAndTheEngine) {
-  Scene plain = mixture(0.0), named = plain;
+  Scene plain = unlike_mixture(0.0), named = plain;
   plain.effects.non_additivity.reset();
   Simulation one = make_simulation(plain), other = make_simulation(named);
   EXPECT_EQ(other.engine(), "fast");
   for (Simulation* simulation : {&one, &other}) simulation->run_until(1e9, {.collisions = 2000});
   EXPECT_EQ(state_hash(one.state()), state_hash(other.state()));
-  EXPECT_EQ(make_simulation(mixture(0.1)).engine(), "general");
+  EXPECT_EQ(make_simulation(unlike_mixture(0.1)).engine(), "general");
 }
 
 TEST(NonAdditivity, HasTheSameBitsOnSeveralThreads) {
   for (const double delta : {-0.4, 0.3}) {
-    Simulation alone = make_simulation(mixture(delta, Boundary::periodic, 40.0));
+    Simulation alone = make_simulation(unlike_mixture(delta, Boundary::periodic, 40.0));
     alone.run_until(1e9, {.collisions = 3000});
     for (const std::size_t threads : {2U, 3U}) {
-      Simulation shared = make_simulation(mixture(delta, Boundary::periodic, 40.0));
+      Simulation shared = make_simulation(unlike_mixture(delta, Boundary::periodic, 40.0));
       shared.set_threads({.threads = threads, .halo = 3.0});
       shared.run_until(1e9, {.collisions = 3000});
       EXPECT_EQ(state_hash(shared.state()), state_hash(alone.state())) << delta << ", " << threads << " threads";
@@ -199,11 +199,11 @@ TEST(NonAdditivity, HasTheSameBitsOnSeveralThreads) {
 
 TEST(NonAdditivity, GoesOnWhereItWasSaved) {
   for (const char* engine : engines_with_effects) {
-    Simulation through = make_simulation(mixture(-0.3), engine), first = make_simulation(mixture(-0.3), engine);
+    Simulation through = make_simulation(unlike_mixture(-0.3), engine), first = make_simulation(unlike_mixture(-0.3), engine);
     first.run_until(1e9, {.collisions = 700});
     std::stringstream saved;
     first.save(saved);
-    Simulation second = restore_simulation(mixture(-0.3), saved);
+    Simulation second = restore_simulation(unlike_mixture(-0.3), saved);
     through.run_until(1e9, {.collisions = 2000});
     second.run_until(1e9, {.collisions = 2000});
     EXPECT_EQ(state_hash(second.state()), state_hash(through.state())) << engine;
@@ -212,7 +212,7 @@ TEST(NonAdditivity, GoesOnWhereItWasSaved) {
 
 TEST(NonAdditivity, GrownStartsRespectTheContactDistances) {
   for (const double delta : {-0.3, 0.2}) {
-    Scene scene = mixture(delta, Boundary::periodic, 16.0);
+    Scene scene = unlike_mixture(delta, Boundary::periodic, 16.0);
     const double fraction = scene.packing_fraction();
     for (Species& species : scene.species) species.positions = GrownPositions{fraction};
     const Simulation simulation = make_simulation(scene);
