@@ -237,6 +237,28 @@ TEST(DensityInACircle, OfAnIdealGasUnderGravityIsTheBarometersOnItsChords) {
   for (std::size_t b = 0; b < 8; ++b) expect_share(density[b] * area[b] / static_cast<double>(count), law[b] / all, count, b);
 }
 
+/// Velocities of a start are uniform on the sphere of its energy, in 2N dimensions, of which L / sqrt(I) is one: L^2 / I has the
+/// mean kT and, for N disks, nearly the variance 2 kT^2 of a square of a Gaussian.
+TEST(CircularStarts, TurnWithOneDegreeOfFreedom) {
+  constexpr int starts = 2000;
+  Scene scene = gas_in_a_circle("temperature = true");
+  double sum = 0.0;
+  for (int k = 0; k < starts; ++k) {
+    scene.run.seed = static_cast<std::uint64_t>(k + 1);
+    const Simulation simulation = make_simulation(scene);
+    const State state = simulation.state();
+    double momentum = 0.0, inertia = 0.0;
+    for (Eigen::Index i = 0; i < state.positions.cols(); ++i) {
+      const Eigen::Vector2d r = state.positions.col(i) - centre_of_gas, v = state.velocities.col(i);
+      momentum += 1.5 * (r.x() * v.y() - r.y() * v.x());
+      inertia += 1.5 * r.squaredNorm();
+    }
+    const double kT = 1.5 * state.velocities.squaredNorm() / 56.0;
+    sum += momentum * momentum / inertia / kT;
+  }
+  EXPECT_NEAR(sum / starts, 1.0, 4.0 * std::sqrt(2.0 / starts));
+}
+
 /// 64 steps are 16 stretches of 4, so nothing is left out.
 TEST(FieldsInACircle, SumUpToWhatTheGasHas) {
   for (const char* cells : {"[1, 1]", "[7, 5]", "[20, 20]"}) {
