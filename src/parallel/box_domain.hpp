@@ -209,7 +209,8 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   SlotsOfDisks slot_of_;
   std::vector<std::int32_t> unused_;  ///< slots
   std::vector<std::int32_t> halo_;    ///< slots
-  std::vector<std::int32_t> moved_;   ///< slots of disks that have left their neighbourhoods in this window
+  std::vector<std::int32_t> moved_;   ///< slots of disks that have left their neighbourhoods in this window, but for those that
+                                      ///< were and are deep inside: whose they are and who copies them may have changed
   std::size_t moves_ = 0;
   std::vector<std::vector<std::int32_t>> copied_;  ///< slots of the disks that each neighbour copies
   std::vector<std::vector<Message>> outboxes_;     ///< to each neighbour

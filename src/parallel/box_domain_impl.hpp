@@ -69,7 +69,7 @@ BoxDomain<Impact, Layout, World>::BoxDomain(const Loop& whole, const BoxParts& p
   halo_.shrink_to_fit();  // all disks have been there, and most slots here
   unused_.shrink_to_fit();
   limit_events();
-  moved_.resize(lines_.size() / 4 + 64);
+  moved_.resize(lines_.size() / 16 + 64);
   prefetcher_.suit(Loop::bytes());
   const std::size_t disks = std::max<std::size_t>(homes_ + halo_.size(), 1);
   pacing_.lengthen_span(static_cast<double>(whole.lines_.size()) / static_cast<double>(disks));
@@ -124,14 +124,11 @@ bool BoxDomain<Impact, Layout, World>::run_next(double end) {
   const auto [time, i] = queue_.next(plans_, [this](std::int64_t span) { prefetch_span(span); });
   if (!(time <= end && time < epoch_length_)) return false;
   const Plan& plan = plans_[i];
-  const bool by_edge = plan.edge_first();
+  const bool by_edge = plan.edge_first(), leaves = by_edge && plan.edge == neighbourhood_edge;
   const std::int32_t partner = plan.partner;
-  if (moves_ == moved_.size()) [[unlikely]]
-    moved_.resize(2 * moved_.size());
-  moved_[moves_] = i;
-  moves_ += static_cast<std::size_t>(by_edge && plan.edge == neighbourhood_edge);
   const std::uint32_t stamp = stamp_;
-  const bool at_home = mark(i).role == Role::home;
+  const Mark& its = mark(i);
+  const bool at_home = its.role == Role::home;
   ++(at_home ? events_ : copied_events_);
   if (at_home) [[likely]]
     this->step(i, time);
@@ -139,6 +136,11 @@ bool BoxDomain<Impact, Layout, World>::run_next(double end) {
     step_copy(i, time);
   remember(i, time);
   if (!by_edge && stamp_ != stamp) remember(partner, time);
+  if (leaves && !(at_home && its.copied_by == 0 && parts_.deep_inside(lists_.centre(i), me_))) {
+    if (moves_ == moved_.size()) [[unlikely]]
+      moved_.resize(2 * moved_.size());
+    moved_[moves_++] = i;
+  }
   return true;
 }
 
@@ -255,12 +257,7 @@ typename BoxDomain<Impact, Layout, World>::Message BoxDomain<Impact, Layout, Wor
 
 template <class Impact, class Layout, class World>
 void BoxDomain<Impact, Layout, World>::write_messages() {
-  for (std::size_t m = 0; m < moves_; ++m) {
-    const std::int32_t i = moved_[m];
-    const Mark& its = mark(i);
-    if (its.role == Role::home && its.copied_by == 0 && parts_.deep_inside(lists_.centre(i), me_)) continue;
-    settle(i);
-  }
+  for (std::size_t m = 0; m < moves_; ++m) settle(moved_[m]);
   moves_ = 0;
   std::erase_if(halo_, [this](std::int32_t i) { return mark(i).role != Role::halo; });
   for (std::size_t n = 0; n < neighbours_.size(); ++n) {
