@@ -198,7 +198,9 @@ TEST(SteppedPotential, KeepsEnergyAndMomentumAndCountsPairs) {
       EXPECT_GT(simulation.totals().well, 5'000U);
       // Some 3e4 events with a rounding of a pair's energy each.
       EXPECT_NEAR(energy_of(simulation), energy, 1e-11 * 64);
-      if (gas.box.periodic(0)) EXPECT_LE(total_momentum(simulation.disks(), simulation.state()).norm(), 1e-12 * 64);
+      if (gas.box.periodic(0)) {
+        EXPECT_LE(total_momentum(simulation.disks(), simulation.state()).norm(), 1e-12 * 64);
+      }
       EXPECT_TRUE(simulation.check_invariants().empty());
     }
 }
