@@ -52,7 +52,7 @@ void Simulation::Parts::share_out() {
   archive(threads.threads, threads.domains, threads.halo, threads.events_per_window, engine_name,
           detail::effects_toml(scene.effects), scene.run.seed, scene.box.lower, scene.box.upper, scene.box.periodic(0),
           scene.box.periodic(1), circle.has_value(), circle ? circle->centre : Eigen::Vector2d::Zero().eval(),
-          circle ? circle->radius : 0.0, disks.radius, disks.mass, engine->state());
+          circle ? circle->radius : 0.0, disks.radius, disks.mass, disks.species, engine->state());
   std::string bytes = std::move(out).str();
   ranks->broadcast(bytes);
   if (const std::string failure = failure_of_all(*ranks, {}); !failure.empty()) throw std::runtime_error(failure);
@@ -71,11 +71,10 @@ Simulation Simulation::begin_elsewhere(const std::string& bytes, Threads& thread
   Start start;
   archive(threads.threads, threads.domains, threads.halo, threads.events_per_window, engine, effects, scene.run.seed,
           scene.box.lower, scene.box.upper, periodic[0], periodic[1], in_circle, circle.centre, circle.radius, start.disks.radius,
-          start.disks.mass, start.state);
+          start.disks.mass, start.disks.species, start.state);
   scene.effects = detail::parse_effects(effects);
   for (std::size_t axis = 0; axis < 2; ++axis) scene.box.boundary[axis] = periodic[axis] ? Boundary::periodic : Boundary::walls;
   if (in_circle) put_in_circle(scene.box, scene.effects, circle);
-  start.disks.species.resize(start.disks.count());
   return begin(scene, std::move(start), engine);
 }
 

@@ -66,6 +66,9 @@ TEST(Ranks, GiveTheBitsOfOneForScenesOfAllKinds) {
   Scene stepped = lean_gas(3000, 0.3, Boundary::periodic);
   stepped.effects.stepped_potential = SteppedPotential{{{1.2, 0.4}, {1.7, -0.6}}};
   expect_same_runs_on(3, stepped, {}, 6.0, 3, "stepped");
+  Scene unlike = mixture(3000);
+  unlike.effects.non_additivity = NonAdditivity{-0.2};
+  expect_same_runs_on(3, unlike, {}, 8.0, 3, "non-additive");
 }
 
 /// Where domains are so small that one has more neighbours than it can tell apart, there are fewer of them.
