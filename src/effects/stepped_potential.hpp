@@ -47,7 +47,7 @@ class PairPotential {
     return part;
   }
   /// Sets the partners of disk i, for engines that exchange disks; the lists of those disks hold it too.
-  void set(std::int32_t i, std::vector<PairStep> inside) { partners(i) = std::move(inside); }
+  void set(std::int32_t i, const std::vector<PairStep>& inside) { partners(i) = inside; }
   /// Counts the pairs anew, after set().
   void count_pairs() {
     std::fill(pairs_.begin(), pairs_.end(), std::uint64_t{0});

@@ -39,11 +39,14 @@ struct Continuation {
   /// All such pairs, rising. At the edge of a step a state does not determine where they are.
   std::vector<Bond> bonds;
 
-  void sort_bonds() { std::ranges::sort(bonds, {}, &Bond::pair); }
+  void sort_bonds() {
+    std::sort(bonds.begin(), bonds.end(), [](const Bond& a, const Bond& b) { return a.pair() < b.pair(); });
+  }
   /// Returns the distance within the step of a pair, in contact distances; infinity for one that was outside.
   [[nodiscard]] double middle(std::int32_t i, std::int32_t j) const {
     const auto ids = std::pair(std::min(i, j), std::max(i, j));
-    const auto found = std::ranges::lower_bound(bonds, ids, {}, &Bond::pair);
+    const auto found = std::lower_bound(bonds.begin(), bonds.end(), ids,
+                                        [](const Bond& bond, const auto& wanted) { return bond.pair() < wanted; });
     return found != bonds.end() && found->pair() == ids ? found->middle : std::numeric_limits<double>::infinity();
   }
 };

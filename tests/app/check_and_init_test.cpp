@@ -51,7 +51,7 @@ TEST(CheckCommand, DescribesEachEffectAndNamesTheAbsent) {
       AllOf(HasSubstr("; restitution 0.9\n"), HasSubstr("  gravity     acceleration (0, -1)\n"),
             HasSubstr("  wall        left: thermal, kT = 2\n"), HasSubstr("  wall        top: restitution 0.8\n"),
             HasSubstr("  obstacles   1 fixed disk\n"),
-            HasSubstr("\nNot simulated: rough disks with spin, growing disks, a thermostat, shear, square wells, drag.\n")));
+            HasSubstr("\nNot simulated: rough disks with spin, growing disks, a thermostat, shear, square wells, stepped potentials, drag.\n")));
 }
 
 TEST(CheckCommand, SaysWhichEngineRunsTheSceneAndWhyAndHowMuchMemoryItTakes) {

@@ -256,7 +256,8 @@ TEST(Drag, IsRefusedWithWhatItCannotActWith) {
   expect("tumbling", [](Effects& e) { e.tumbling = Tumbling{0.1}; });
   expect("brownian", [](Effects& e) { e.brownian = Brownian{1.0, 0.1}; });
   expect("square_well", [](Effects& e) { e.square_well = SquareWell{1.1, 0.1}; });
-  EXPECT_EQ(drag.excludes.size(), 13U);  // these, and shear, which has no walls
+  expect("stepped_potential", [](Effects& e) { e.stepped_potential = SteppedPotential{{{1.1, 0.1}}}; });
+  EXPECT_EQ(drag.excludes.size(), 14U);  // these, and shear, which has no walls
   Scene equilibrated = scene;
   equilibrated.run.equilibrate = Run::Equilibrate{1.0, {}};
   EXPECT_EQ(

@@ -205,7 +205,7 @@ def whole_file(trial, file):
     expect((np.diff(times) >= 0.0).all(), "events go back in time")
     expect((times <= summary["time"] * (1.0 + 4.0 * EPSILON)).all(), "events after the end")
     counted = summary["events"]
-    for name, which, count in (("pairs", partner >= 0, counted["pair"] + counted.get("well", 0)), ("walls", (partner < 0) & (partner >= -4), counted["wall"]),
+    for name, which, count in (("pairs", partner >= 0, counted["pair"] + counted.get("well", 0) + counted.get("step", 0)), ("walls", (partner < 0) & (partner >= -4), counted["wall"]),
                                ("obstacles", partner <= -1000, counted.get("obstacle", 0))):
         count = count if summary.get("measured", True) else 0  # the log is that of the measured run
         expect(int(which.sum()) == count, f"{int(which.sum())} events with {name} in the log, {count} in the summary")
@@ -316,8 +316,10 @@ def energy_and_momentum(trial, file):
     weight = math.hypot(*map(number, tables["gravity"]["acceleration"])) * masses if "gravity" in tables else 0.0 * masses
     loads = sum(number(wall["load"]) * max(lengths) for wall in tables.get("walls", {}).values() if "load" in wall)
     bounces = events["wall"] + events.get("obstacle", 0)
-    all_events = bounces + events["pair"] + events.get("well", 0)
+    all_events = bounces + events["pair"] + events.get("well", 0) + events.get("step", 0)
     turnover += abs(events.get("well", 0)) * number(tables["square_well"]["depth"]) if "square_well" in tables else 0.0
+    if "stepped_potential" in tables:
+        turnover += 2.0 * events.get("step", 0) * max(abs(number(step["energy"])) for step in tables["stepped_potential"]["steps"])
     turnover = abs(turnover)
     slack = 16.0 * EPSILON * place * (2.0 * (weight.sum() + loads) + 2.0 * all_events * (weight.max() + loads))
     slack += bounces * 2.0**-40 * radii.max() * (weight.max() + loads)

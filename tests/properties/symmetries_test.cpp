@@ -119,6 +119,9 @@ RC_GTEST_PROP(PropertySymmetries, DisksByOtherNamesMoveTheSame, ()) {
   RC_PRE(scene && !draws(scene->effects));
   Scene renamed = *scene;
   std::reverse(renamed.species.begin(), renamed.species.end());
+  if (renamed.effects.non_additivity)
+    for (NonAdditivity::Pair& pair : renamed.effects.non_additivity->pairs)
+      for (std::int64_t& one : pair.species) one = static_cast<std::int64_t>(scene->species.size()) - 1 - one;
   const auto last = static_cast<std::int32_t>(scene->disk_count()) - 1;
   expect_same_events(*scene, renamed, [last](Event event) {
     event.disk = last - event.disk;
