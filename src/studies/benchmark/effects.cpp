@@ -85,8 +85,30 @@ class Race {
 
  private:
   static Scene with(Scene gas, const Effects& effects) {
+    if (effects.non_additivity) gas.species = halves_of(gas);
     gas.effects = effects;
     return gas;
+  }
+
+  /// Returns the disks of the gas as two species that begin as the gas does.
+  static std::vector<Species> halves_of(const Scene& gas) {
+    const State start = make_simulation(gas, "fast").state();
+    std::vector<Species> halves;
+    for (Eigen::Index begin = 0; const Eigen::Index end : {start.positions.cols() / 2, start.positions.cols()}) {
+      Species& half = halves.emplace_back(gas.species.front());
+      half.name = halves.size() == 1 ? "one half" : "other half";
+      half.count = end - begin;
+      ListedPositions positions;
+      ListedVelocities velocities;
+      for (Eigen::Index i = begin; i < end; ++i) {
+        positions.values.emplace_back(start.positions.col(i));
+        velocities.values.emplace_back(start.velocities.col(i));
+      }
+      half.positions = positions;
+      half.velocities = velocities;
+      begin = end;
+    }
+    return halves;
   }
 
   static bool same_bits(const State& a, const State& b) {
