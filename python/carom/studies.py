@@ -195,7 +195,8 @@ class LyapunovSpectrum:
         exponents: a row for each of the 4 N exponents of N disks, the largest first: `exponent` and its standard error, 1 / time; the
             error is nan where the run is too short.
         entropy: the Kolmogorov-Sinai entropy, the sum of the positive exponents, 1 / time.
-        pairing: the largest of |exponent i + exponent 4 N + 1 - i|, 1 / time; 0 to rounding where the dynamics is Hamiltonian.
+        pairing: the largest sum of an exponent and its partner, the first and the last, the second and the last but one, and so on,
+            1 / time; 0 to rounding where the dynamics is Hamiltonian.
         collision_rate: collisions of one disk per time, the natural unit of the exponents.
     """
 
