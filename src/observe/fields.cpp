@@ -182,7 +182,8 @@ class Fields final : public SavedObservable<Fields> {
   /// Returns the rectangle of a cell.
   [[nodiscard]] Rectangle rectangle_of(std::size_t c) const {
     const auto across = static_cast<std::size_t>(cells_[0]);
-    const Eigen::Vector2d at(static_cast<double>(c % across), static_cast<double>(c / across));
+    const std::size_t column = c % across, row = c / across;
+    const Eigen::Vector2d at(static_cast<double>(column), static_cast<double>(row));
     const Eigen::Vector2d lower = run_.scene.box.lower + at.cwiseProduct(width_);
     return {lower, lower + width_};
   }
