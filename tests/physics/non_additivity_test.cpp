@@ -1,11 +1,9 @@
 // Mixtures whose diameters are not additive: the second and the third virial coefficient, and the virial from the geometry of
 // contacts.
 
-#include "observe/run_measurements.hpp"
+#include "support/contact_sums.hpp"
 
-#include <carom/collisions.hpp>
 #include <carom/scene.hpp>
-#include <carom/simulation.hpp>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -13,7 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
+#include <cstddef>
 #include <numbers>
 #include <vector>
 
@@ -63,43 +61,10 @@ TEST(PhysicsNonAdditivity, TheThirdVirialCoefficientOfEqualDisksIsTheKnownOne) {
   EXPECT_NEAR(third_virial(1.2, 0.9, 0.7), third_virial(0.7, 1.2, 0.9), 1e-7);
 }
 
-struct MixtureSums {
-  RunReport report;
-  double virial = 0.0;          ///< sum of r . J
-  double contacts = 0.0;        ///< sum of sigma_ij <J_ij>
-  double contacts_error = 0.0;  ///< standard error of the difference of the two
-  double farthest_off = 0.0;    ///< the largest deviation of a separation from sigma_ij
-};
-
-MixtureSums mixture_sums(const Scene& scene, double delta) {
-  Simulation simulation = make_simulation(scene);
-  RunMeasurements measurements(simulation);
-  const Disks& disks = simulation.disks();
-  MixtureSums measured;
-  std::vector<PairCollision> met;
-  // <g^2> / <|g|> of pairs that collide, at fixed energy and zero momentum: as in polydisperse_test.cpp.
-  const double n = static_cast<double>(scene.disk_count()) - 1.0;
-  const double factor = std::exp(std::lgamma(n + 0.5) - std::lgamma(n)) / std::sqrt(n);
-  RunHooks hooks;
-  hooks.start = [&](const State& state) { measurements.start(state); };
-  hooks.block = [&](const Progress& progress) { measurements.block(progress); };
-  hooks.collisions = [&](const CollisionRecords& records) {
-    records.read(met);
-    for (const PairCollision& c : met) {
-      const auto i = static_cast<std::size_t>(c.disk), j = static_cast<std::size_t>(c.partner);
-      const double scale = disks.species[i] == disks.species[j] ? 1.0 : 1.0 + delta;
-      const double sigma = scale * (disks.radius[i] + disks.radius[j]);
-      const double mu = disks.mass[i] * disks.mass[j] / (disks.mass[i] + disks.mass[j]);
-      const double mean = sigma * factor * std::sqrt(2.0 * pi * mu);  // kT = 1
-      measured.virial += c.separation.dot(c.impulse);
-      measured.contacts += mean;
-      measured.contacts_error += (4.0 / pi - 1.0) * mean * mean;  // Rayleigh's law of normal velocities
-      measured.farthest_off = std::max(measured.farthest_off, std::abs(c.separation.norm() - sigma));
-    }
-  };
-  measured.report = measurements.report(run_schedule(simulation, hooks), 0.0);
-  measured.contacts_error = std::sqrt(measured.contacts_error);
-  return measured;
+ContactSums mixture_sums(const Scene& scene, double delta) {
+  return contact_sums(scene, [delta](const Disks& disks, std::size_t i, std::size_t j) {
+    return (disks.species[i] == disks.species[j] ? 1.0 : 1.0 + delta) * (disks.radius[i] + disks.radius[j]);
+  });
 }
 
 TEST(PhysicsNonAdditivity, ZIsThatOfTheSecondAndThirdVirialCoefficients) {
@@ -132,7 +97,7 @@ TEST(PhysicsNonAdditivity, ZIsThatOfTheSecondAndThirdVirialCoefficients) {
 
 TEST(PhysicsNonAdditivity, TheVirialIsThatOfTheContactsTimesTheirMeanImpulse) {
   for (const double delta : {-0.3, 0.1}) {
-    const MixtureSums measured = mixture_sums(binary(delta, 0.4, 300, 400'000), delta);
+    const ContactSums measured = mixture_sums(binary(delta, 0.4, 300, 400'000), delta);
     EXPECT_NEAR(measured.virial / measured.contacts, 1.0, 4 * measured.contacts_error / measured.contacts) << delta;
     EXPECT_LT(measured.contacts_error / measured.contacts, 1.2e-3);
     EXPECT_LT(measured.farthest_off, 1e-12) << delta;
