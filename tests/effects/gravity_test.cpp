@@ -80,13 +80,7 @@ TEST(Gravity, FindsItsWayBack) {
   for (const char* engine : engines_with_effects)
     for (const auto& [time, bound] : {std::pair{1.0, 1e-12}, std::pair{3.0, 1e-7}}) {
       const Scene scene = falling(gas_scene(64, 0.4 * std::numbers::pi / 4, Boundary::walls), {0.3, -0.5});
-      Simulation there = make_simulation(scene, engine);
-      const State start = there.state();
-      there.run_until(time);
-      State turned = there.state();
-      turned.velocities = -turned.velocities;
-      Simulation back = make_simulation(scene, turned, engine);
-      back.run_until(time);
+      const auto [start, there, back] = there_and_back(scene, engine, time);
       EXPECT_GT(back.totals().pair, 20U);
       EXPECT_LE((back.state().positions - start.positions).cwiseAbs().maxCoeff(), bound) << engine << ", T = " << time;
     }

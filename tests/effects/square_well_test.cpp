@@ -136,14 +136,8 @@ TEST(SquareWell, FindsItsWayBack) {
   for (const char* engine : engines_with_effects)
     for (const double depth : {0.5, -0.3}) {
       const Scene scene = with_well(gas_scene(64, 0.3, Boundary::periodic), depth);
-      Simulation there = make_simulation(scene, engine);
-      const State start = there.state();
-      there.run_until(1.0);
+      const auto [start, there, back] = there_and_back(scene, engine, 1.0);
       EXPECT_GT(there.totals().well, 30U);
-      State turned = there.state();
-      turned.velocities = -turned.velocities;
-      Simulation back = make_simulation(scene, turned, engine);
-      back.run_until(1.0);
       // Edges bend paths less than cores do: the bound of the hard gas after T = 1, and a decade.
       EXPECT_LE((back.state().velocities + start.velocities).cwiseAbs().maxCoeff(), 1e-10) << engine << ", depth " << depth;
       EXPECT_EQ(back.state().bonds, start.bonds == 0 ? back.state().bonds : start.bonds);

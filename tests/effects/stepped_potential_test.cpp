@@ -224,14 +224,8 @@ TEST(SteppedPotential, FastAndTextbookEnginesAgree) {
 TEST(SteppedPotential, FindsItsWayBack) {
   for (const char* engine : engines_with_effects) {
     const Scene scene = with_steps(gas_scene(64, 0.3, Boundary::periodic), shoulder_and_well);
-    Simulation there = make_simulation(scene, engine);
-    const State start = there.state();
-    there.run_until(1.0);
+    const auto [start, there, back] = there_and_back(scene, engine, 1.0);
     EXPECT_GT(there.totals().well, 30U);
-    State turned = there.state();
-    turned.velocities = -turned.velocities;
-    Simulation back = make_simulation(scene, turned, engine);
-    back.run_until(1.0);
     EXPECT_LE((back.state().velocities + start.velocities).cwiseAbs().maxCoeff(), 1e-10) << engine;
     EXPECT_EQ(back.state().pairs_in_steps, start.pairs_in_steps);
   }

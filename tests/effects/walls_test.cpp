@@ -231,15 +231,8 @@ TEST(Pistons, FindTheirWayBack) {
   for (const char* engine : engines_with_effects) {
     Scene scene = gas_scene(36, 0.3, Boundary::walls);
     scene.effects.walls[1] = {.mass = 5.0, .load = 0.5};
-    Simulation there = make_simulation(scene, engine);
-    const State start = there.state();
-    there.run_until(2.0);
+    const auto [start, there, back] = there_and_back(scene, engine, 2.0);
     EXPECT_GT(there.totals().pair, 20U);
-    State turned = there.state();
-    turned.velocities = -turned.velocities;
-    for (WallState& wall : turned.walls) wall.velocity = -wall.velocity;
-    Simulation back = make_simulation(scene, turned, engine);
-    back.run_until(2.0);
     // Denser than the gas of laws_test.cpp, and with a piston that all disks feel: one more decade.
     EXPECT_LE((back.state().positions - start.positions).cwiseAbs().maxCoeff(), 1e-10) << engine;
     EXPECT_NEAR(back.state().walls.at(1).position, scene.box.upper[0], 1e-10) << engine;

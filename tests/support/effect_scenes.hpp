@@ -9,6 +9,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace carom::test {
@@ -44,6 +45,23 @@ inline Ran run(const Scene& scene, const std::string& engine, double time, std::
   const StopReason stopped = simulation.run_until(time, {.collisions = collisions});
   std::vector<Event> events = simulation.take_events();
   return {std::move(simulation), std::move(events), stopped};
+}
+
+/// A simulation that ran there, and one that began where it ended with all velocities turned round and ran as long again.
+struct ThereAndBack {
+  State start;
+  Simulation there, back;
+};
+inline ThereAndBack there_and_back(const Scene& scene, const std::string& engine, double time) {
+  Simulation there = make_simulation(scene, engine);
+  State start = there.state();
+  there.run_until(time);
+  State turned = there.state();
+  turned.velocities = -turned.velocities;
+  for (WallState& wall : turned.walls) wall.velocity = -wall.velocity;
+  Simulation back = make_simulation(scene, turned, engine);
+  back.run_until(time);
+  return {std::move(start), std::move(there), std::move(back)};
 }
 
 /// Of flight, spin, height and wells.
