@@ -107,10 +107,9 @@ endif()
 
 if(carom_python_found)
   set(carom_python_place lib/python3/dist-packages/carom)
-  foreach(module core files)
-    install(TARGETS carom_python_${module} LIBRARY DESTINATION ${carom_python_place} COMPONENT python3 EXCLUDE_FROM_ALL)
-    install(FILES ${PROJECT_BINARY_DIR}/python/carom/_${module}.pyi DESTINATION ${carom_python_place} COMPONENT python3 EXCLUDE_FROM_ALL)
-  endforeach()
+  install(TARGETS ${carom_python_binaries} LIBRARY DESTINATION ${carom_python_place} COMPONENT python3 EXCLUDE_FROM_ALL)
+  install(FILES ${PROJECT_BINARY_DIR}/python/carom/_core.pyi ${PROJECT_BINARY_DIR}/python/carom/_files.pyi
+          DESTINATION ${carom_python_place} COMPONENT python3 EXCLUDE_FROM_ALL)
   file(GLOB carom_python_files CONFIGURE_DEPENDS python/carom/*.py python/carom/py.typed)
   install(FILES ${carom_python_files} DESTINATION ${carom_python_place} COMPONENT python3 EXCLUDE_FROM_ALL)
 endif()
