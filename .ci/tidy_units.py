@@ -15,7 +15,7 @@ import sys
 from pathlib import Path
 
 # Made of the same headers as what is looked at, or written by the build.
-LEFT_OUT = re.compile(r"_avx|_texts\.cpp|build_info|lean_reversal|textbook_(float|quad)")
+LEFT_OUT = re.compile(r"_avx|_texts\.cpp|build_info|lean_reversal|make_mixed|textbook_(float|quad)")
 # These instantiate whole engines.
 ENGINE = re.compile(r"/(fixed_step|lean_\w+|make_\w+|textbook_\w+)\.cpp$")
 # Folders with few files, which go together.
