@@ -1,11 +1,9 @@
 // The textbook engine is here in double precision alone: it runs what no other engine covers. The other widths are for studies of
-// rounding, and would make the page larger; that of 113 bits is no literal type for this compiler either. It runs mixtures whose
-// diameters are not additive too, for which the engine "general" has a form of its own.
+// rounding, and would make the page larger; that of 113 bits is no literal type for this compiler either.
 #include "simulation/make_textbook.hpp"
 
 #include <memory>
 #include <stdexcept>
-#include <string>
 
 namespace carom::detail {
 
@@ -21,8 +19,5 @@ template <>
 std::unique_ptr<AnyEngine> make_textbook<Quad>(const Scene&, const Disks&, State) {
   throw std::invalid_argument("the engine \"textbook-quad\" is not in this page");
 }
-
-std::string why_not_mixed() { return "the form of this engine for diameters that are not additive is not in this page"; }
-std::unique_ptr<AnyEngine> make_mixed(const Scene&, const Disks&, State) { throw std::invalid_argument(why_not_mixed()); }
 
 }  // namespace carom::detail

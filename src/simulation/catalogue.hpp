@@ -44,9 +44,7 @@ std::unique_ptr<AnyEngine> make_fast(const Scene& scene, const Disks& disks, Sta
 /// The fast engine with every effect.
 std::string why_not_general(const Scene& scene, const Disks& disks);
 std::unique_ptr<AnyEngine> make_general(const Scene& scene, const Disks& disks, State start);
-/// Why there is no general engine for a mixture whose diameters are not additive; empty where there is one.
-std::string why_not_mixed();
-/// The general engine for such a mixture.
+/// The general engine for a mixture whose diameters are not additive.
 std::unique_ptr<AnyEngine> make_mixed(const Scene& scene, const Disks& disks, State start);
 
 /// The textbook engine in one number type; instantiated in textbook_<type>.cpp, one file each because they are slow to

@@ -7,8 +7,6 @@
 namespace carom::detail {
 
 std::string why_not_general(const Scene& scene, const Disks& disks) {
-  if (is_non_additive(scene.effects, disks))
-    if (std::string reason = why_not_mixed(); !reason.empty()) return reason;
   return Engine<AnyImpact<double>, AnyDisks, AnyWorld>::why_not(scene.box, disks, scene.effects);
 }
 

@@ -2,12 +2,9 @@
 
 #include "simulation/make_with_effects.hpp"
 
-#include <string>
 #include <utility>
 
 namespace carom::detail {
-
-std::string why_not_mixed() { return {}; }
 
 std::unique_ptr<AnyEngine> make_mixed(const Scene& scene, const Disks& disks, State start) {
   return make_with_effects<MixedDisks>(scene, disks, std::move(start));
