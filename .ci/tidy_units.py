@@ -4,8 +4,8 @@
     tidy_units.py SOURCE_DIR BUILD_DIR [PATTERN]
 
 Reads BUILD_DIR/compile_commands.json. Writes into BUILD_DIR/together units, each of which includes many files, and a
-compile_commands.json of theirs; of files whose path matches PATTERN alone, where it is given. The files of a folder of
-the product share a unit, unless they give one name to two things. Tests are copied, each into a namespace of its own.
+compile_commands.json of theirs; of files whose path matches PATTERN alone, where it is given. Files of the product share
+a unit, unless they give one name to two things. Tests are copied, each into a namespace of its own.
 """
 import json
 import re
@@ -18,8 +18,8 @@ from pathlib import Path
 LEFT_OUT = re.compile(r"_avx|_texts\.cpp|build_info|lean_reversal|make_mixed|textbook_(float|quad)")
 # These instantiate whole engines.
 ENGINE = re.compile(r"/(fixed_step|lean_\w+|make_\w+|textbook_\w+)\.cpp$")
-# Folders with few files, which go together.
-SMALL = ("core", "effects", "kernels", "live", "neighbours", "parallel", "queue", "runner", "stepper", "terminal", "text", "theory")
+# So many units at least, of about one size, for as many processors.
+UNITS = {"product": 6, "tests": 4}
 
 # What a file defines in its anonymous namespaces, as its layout tells; and its macros.
 ALIAS = re.compile(r"(?:template\s*<.*>\s*)?using\s+(\w+)\s*=.*")
@@ -81,16 +81,6 @@ class Unit:
         file.write_text("".join(f'#define main main_{k}\n#include "{path}"\n#undef main\n' for k, path in enumerate(self.files)))
 
 
-def folder_of(path, source):
-    """Returns what the unit of a file of the product is called."""
-    if ENGINE.search(str(path)):
-        return "engines"
-    *_, folder = path.relative_to(source).parts[:-1]
-    if path.is_relative_to(source / "build"):
-        folder = "kernels"
-    return "small_folders" if folder in SMALL else folder
-
-
 def apart(path, source, together):
     """Returns a copy of a test whose names are its own: all that tests define is in anonymous namespaces."""
     if not path.name.endswith("_test.cpp"):
@@ -109,8 +99,9 @@ def main():
     together = build / "together"
     shutil.rmtree(together, ignore_errors=True)
     together.mkdir()
-    units, seen = {f"tests_{k}": [Unit()] for k in range(4)}, set()
-    tests = [unit for alone in units.values() for unit in alone]
+    units, seen = {kind: [Unit() for _ in range(count)] for kind, count in UNITS.items()}, set()
+    headers = [header for folder in ("include", "src", "bench") for header in (source / folder).rglob("*.hpp")]
+    of_headers = {match[1] for header in headers for match in re.finditer(r"^(?:struct|class|enum class|using) (\w+)", header.read_text(), re.M)}
     entries = json.loads((build / "compile_commands.json").read_text())
     # make_fast.cpp, which says that engines are instantiated elsewhere, has to come before what instantiates them.
     for entry in sorted(entries, key=lambda entry: "/make_" not in entry["file"]):
@@ -119,19 +110,20 @@ def main():
             continue
         seen.add(path)
         if path.is_relative_to(source / "tests"):
-            min(tests, key=lambda unit: unit.bytes).add(apart(path, source, together), {}, flags_of(entry))
-            continue
-        names = names_of(path)
-        of_folder = units.setdefault(f"product_{folder_of(path, source)}", [])
-        free = next((unit for unit in of_folder if unit.takes(names)), None)
-        if free is None:
-            free = Unit()
-            of_folder.append(free)
-        free.add(path, names, flags_of(entry))
+            kind, names, path = "tests", {}, apart(path, source, together)
+        else:
+            kind, names = "product_engines" if ENGINE.search(str(path)) else "product", names_of(path)
+            if any(name in of_headers for name, meaning in names.items() if meaning == path):  # it would hide the other one
+                kind = f"product_{path.parent.name}"
+        free = [unit for unit in units.setdefault(kind, []) if unit.takes(names)]
+        if not free:
+            free = [Unit()]
+            units[kind] += free
+        min(free, key=lambda unit: unit.bytes).add(path, names, flags_of(entry))
 
     database = []
-    for name, of_folder in units.items():
-        for k, unit in enumerate(of_folder):
+    for name, of_kind in units.items():
+        for k, unit in enumerate(of_kind):
             if unit.files:
                 file = together / f"{name}_{k}.cpp"
                 unit.write(file)
