@@ -130,6 +130,19 @@ def with_players(text):
     return re.sub(r"^!\[([^\]]*)\]\(images/gallery/(\w+)\.png\)$", button, text, flags=re.M)
 
 
+def with_dark_pictures(text):
+    """Returns a page where each picture that has a dark version is followed by it: the theme shows the one that suits the screen."""
+    def both(match):
+        words, light, kind = match.groups()
+        dark = f"{light}_dark.{kind}"
+        if not (DOCS / dark).exists():
+            return match.group(0)
+        return "\n\n".join(f"```{{image}} {file}\n:alt: {words}\n:class: {screen}\n```"
+                           for file, screen in ((f"{light}.{kind}", "only-light"), (dark, "only-dark")))
+
+    return re.sub(r"^!\[([^\]]*)\]\((images/\w+)\.(\w+)\)$", both, text, flags=re.M)
+
+
 def live(docname):
     """What the start page and that of the playground show where there are live pages."""
     up = os.path.relpath(".", os.path.dirname(docname) or ".")
@@ -154,6 +167,7 @@ def on_source_read(app, docname, content):
     stands_in = COPIED[docname].parent if docname in COPIED else (DOCS / docname).parent
     text = COPIED[docname].read_text() if docname in COPIED else content[0]
     text = rewrite_links(text, docname, stands_in)
+    text = with_dark_pictures(text)
     if docname == "gallery":
         text = with_players(text)
     if PLAYGROUND:

@@ -18,5 +18,5 @@ addEventListener("DOMContentLoaded", () => {
 // Who asks for less motion sees a still picture on the start page.
 addEventListener("DOMContentLoaded", () => {
   if (!matchMedia("(prefers-reduced-motion: reduce)").matches) return;
-  for (const film of document.querySelectorAll(".film img")) film.src = film.src.replace(/\.gif$/, ".png");
+  for (const film of document.querySelectorAll(".film img")) film.src = film.src.replace(/(_dark)?\.gif$/, ".png");
 });
