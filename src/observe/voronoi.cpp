@@ -3,7 +3,7 @@
 // psi_j = sum over the sides of cell j of (length / perimeter) exp(6 i theta), theta the direction to the neighbour there. Unlike
 // the order of the six nearest, or of all neighbours alike, it changes continuously as disks move: a neighbour comes and goes
 // with a side of length 0 (Mickel, Kapfer, Schroeder-Turk & Mecke, J. Chem. Phys. 138, 044501 (2013)). Averages over time. Cells
-// that a wall cuts off count in areas alone.
+// that a wall cuts off count in areas alone. In a sheared box the images above are where they are at the time of the sample.
 
 #include "observe/blocking.hpp"
 #include "observe/observables.hpp"
@@ -31,7 +31,7 @@ class Voronoi final : public SavedObservable<Voronoi> {
 
   void sample(const State& state, const Totals&) override {
     const Box box = box_of(run_.scene.box, state);
-    const VoronoiCells cells(box, state.positions);
+    const VoronoiCells cells(box, state.positions, state.shear_displacement);
     const double mean_area = box.area() / static_cast<double>(cells.count());
     std::complex<double> global = 0.0, global_of_areas = 0.0, global_of_neighbours = 0.0;
     double whole = 0.0, local = 0.0, square = 0.0, local_of_neighbours = 0.0, perimeters = 0.0, area_of_whole = 0.0,

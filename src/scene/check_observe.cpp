@@ -100,9 +100,9 @@ void check_collisions(const Scene& scene, const ObservableRequest& request) {
                                              effect.title));
 }
 
-/// Cells and clusters have a meaning between walls and for disks that grow, but not where images slide past each other.
-void check_geometry(const Scene& scene, const ObservableRequest& request) {
-  if (!one_of(request.name, {"voronoi", "clusters"})) return;
+/// Clusters have a meaning between walls and for disks that grow, but are not found where images slide past each other.
+void check_clusters(const Scene& scene, const ObservableRequest& request) {
+  if (request.name != "clusters") return;
   if (const std::string_view why = first_reason(scene.effects, &EffectTraits::why_no_structure, &EffectTraits::changes_radii);
       !why.empty())
     refuse_observable(request, std::string(why));
@@ -143,7 +143,7 @@ void check_observe(const Scene& scene) {
     check_disks(scene, request);
     check_collisions(scene, request);
     check_structure(scene, request);
-    check_geometry(scene, request);
+    check_clusters(scene, request);
     check_wave_number(scene, request);
     if (request.every) check_step(scene, fmt::format("observe.{}.every", request.name), *request.every);
     if (request.name == "wall_fluxes" && scene.box.periodic(0) && scene.box.periodic(1))

@@ -440,7 +440,7 @@ def can_be_observed(name, scene, walled, gas):
         return not {"thermostat", "growth", "shear", "drag"} & set(tables)
     if name in ("radial_distribution", "structure_factor", "hexatic", "intermediate_scattering"):
         return not any(walled) and not {"shear", "growth"} & set(tables)
-    if name in ("mean_square_displacement", "velocity_autocorrelation", "overlap", "non_gaussian", "van_hove", "voronoi", "clusters"):
+    if name in ("mean_square_displacement", "velocity_autocorrelation", "overlap", "non_gaussian", "van_hove", "clusters"):
         return "shear" not in tables
     if name in ("viscosity", "heat_conductivity"):
         spoiled = any(walled) or {"obstacles", "thermostat", "growth", "shear", "square_well", "drag"} & set(tables) or set(collision) & {"restitution", "roughness"}

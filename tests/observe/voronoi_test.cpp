@@ -170,6 +170,24 @@ TEST(VoronoiCells, OfAShearedBoxAreThoseOfImagesThatAreDisplaced) {
       expect_cells_by_cutting(box, random_points(box, count, static_cast<std::uint64_t>(count)), displacement);
 }
 
+/// A displacement of whole box lengths displaces nothing.
+TEST(VoronoiCells, OfABoxShearedByItsLengthAreThoseOfTheBoxAtRest) {
+  const Box box{{-2.0, 1.0}, {3.0, 4.5}, {Boundary::periodic, Boundary::periodic}};
+  const Eigen::Matrix2Xd positions = random_points(box, 40, 5);
+  const VoronoiCells at_rest(box, positions);
+  for (const double displacement : {0.0, 5.0, -10.0}) {
+    const VoronoiCells cells(box, positions, displacement);
+    for (std::size_t i = 0; i < cells.count(); ++i) {
+      ASSERT_EQ(cells.sides(i).size(), at_rest.sides(i).size());
+      for (std::size_t k = 0; k < cells.sides(i).size(); ++k) {
+        EXPECT_EQ(cells.sides(i)[k].neighbour, at_rest.sides(i)[k].neighbour);
+        EXPECT_NEAR(cells.sides(i)[k].length, at_rest.sides(i)[k].length, 1e-12);
+      }
+      EXPECT_NEAR(cells.area(i), at_rest.area(i), 1e-12);
+    }
+  }
+}
+
 /// The first and the last number below an edge are rounded to the edge itself on a coarser grid.
 TEST(VoronoiCells, OfCentresAtTheEdgesOfTheBoxAreWhole) {
   const Box box{{0.0, 0.0}, {1.0, 1.0}, {Boundary::periodic, Boundary::periodic}};
@@ -240,6 +258,32 @@ TEST(VoronoiCells, OfLatticesAreKnown) {
         }
       }
       EXPECT_EQ(charge, 0) << known.sides << " sides, " << size;
+    }
+}
+
+/// A square lattice that is sheared by g is one of the vectors a = (1, 0) and b = (g, 1). For 0 < g < 1 the triangle of a, b and
+/// b - a is acute, and the side towards a neighbour is as long as the way there times the cotangent of the angle opposite to it:
+/// 1 - g + g^2, |b| (1 - g) and |b - a| g.
+TEST(VoronoiCells, OfAShearedLatticeAreKnown) {
+  for (const double g : {0.125, 0.25, 0.5, 0.75, 0.8125})
+    for (const int size : {1, 2, 3, 12}) {
+      Box box;
+      Eigen::Matrix2Xd positions = lattice(box, {{0.25, 0.25}}, {1.0, 1.0}, size, size + 1);
+      for (Eigen::Index i = 0; i < positions.cols(); ++i)
+        positions(0, i) = std::fmod(positions(0, i) + g * positions(1, i), box.upper.x());
+      const VoronoiCells cells(box, positions, std::fmod(g * box.upper.y(), box.upper.x()));
+      for (std::size_t i = 0; i < cells.count(); ++i) {
+        EXPECT_NEAR(cells.area(i), 1.0, 1e-13);
+        ASSERT_EQ(cells.sides(i).size(), 6U) << g << ", " << size;
+        for (const VoronoiSide& side : cells.sides(i)) {
+          const Eigen::Vector2d to = side.to.y() < -0.5 ? Eigen::Vector2d(-side.to) : side.to;
+          const bool is_a = std::abs(to.y()) < 0.5, is_b = !is_a && to.x() > 0.0;
+          const Eigen::Vector2d known =
+              is_a ? Eigen::Vector2d(to.x() > 0.0 ? 1.0 : -1.0, 0.0) : Eigen::Vector2d(is_b ? g : g - 1.0, 1.0);
+          EXPECT_NEAR((to - known).norm(), 0.0, 1e-14);
+          EXPECT_NEAR(side.length, is_a ? 1.0 - g + g * g : known.norm() * (is_b ? 1.0 - g : g), 1e-13);
+        }
+      }
     }
 }
 
@@ -403,7 +447,7 @@ void expect_means_over_cut_cells(const Observed& o, const std::string& observabl
   double local = 0.0, global = 0.0, by_area = 0.0, local_unweighted = 0.0, variance = 0.0, perimeter = 0.0, whole = 0.0;
   std::vector<double> fractions(10), areas(20);
   for (const State& state : o.record.states) {
-    const std::vector<CutCell> cells = cut_cells(o.scene.box, state.positions);
+    const std::vector<CutCell> cells = cut_cells(o.scene.box, state.positions, state.shear_displacement);
     const double mean = o.scene.box.area() / static_cast<double>(cells.size());
     std::complex<double> all = 0.0, all_areas = 0.0;
     double here = 0.0, its_area = 0.0;
@@ -451,6 +495,41 @@ TEST(ObservedVoronoi, InACircleIsTheMeanOverCellsOfItsStates) {
                   "time = 3.0\n[observe]\nvoronoi = { every = 0.5, bins = 20 }\n"),
       0.5);
   expect_means_over_cut_cells(o, "voronoi");
+}
+
+const std::string sheared_fluid =
+    small_fluid("voronoi = { every = 0.5, bins = 20 }") + "[shear]\nrate = 0.7\n[thermostat]\ntemperature = 1.0\nrate = 1.0\n";
+
+/// Images above are displaced as they are at the time of each state.
+TEST(ObservedVoronoi, InAShearedBoxIsTheMeanOverCellsOfItsStates) {
+  expect_means_over_cut_cells(observe(parse_scene(sheared_fluid), 0.5), "voronoi");
+}
+
+/// However far the images have moved, cells fill the box and have six sides on average.
+TEST(ObservedVoronoi, OfEveryStateOfAShearedFluidFillsTheBox) {
+  const Observed o = observe(parse_scene(sheared_fluid), 0.05);
+  double farthest = 0.0;
+  for (const State& state : o.record.states) {
+    const VoronoiCells cells(o.scene.box, state.positions, state.shear_displacement);
+    double area = 0.0, charge = 0.0;
+    for (std::size_t i = 0; i < cells.count(); ++i) {
+      area += cells.area(i);
+      charge += 6.0 - static_cast<double>(cells.sides(i).size());
+    }
+    EXPECT_NEAR(area, o.scene.box.area(), 1e-12 * o.scene.box.area()) << state.time;
+    EXPECT_EQ(charge, 0.0) << state.time;
+    farthest = std::max(farthest, state.shear_displacement);
+  }
+  EXPECT_GT(o.record.states.size(), 100U);
+  EXPECT_GT(farthest, 0.9 * o.scene.box.lengths().x());
+}
+
+/// A flow of rate 0 changes no bit of what is measured.
+TEST(ObservedVoronoi, AtRateZeroIsThatOfTheBoxAtRest) {
+  const std::string at_rest = small_fluid("voronoi = { every = 0.5 }");
+  const Observed o = observe(parse_scene(at_rest), 0.5), neutral = observe(parse_scene(at_rest + "[shear]\nrate = 0.0\n"), 0.5);
+  for (std::size_t k = 0; k < o.of("voronoi").scalars.size(); ++k)
+    EXPECT_EQ(o.of("voronoi").scalars[k].value, neutral.of("voronoi").scalars[k].value);
 }
 
 /// The states of disks on a torus have as many cells too many as too few.
