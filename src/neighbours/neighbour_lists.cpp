@@ -126,9 +126,11 @@ void NeighbourLists::clear() {
 }
 
 std::span<const std::int32_t> NeighbourLists::begin_move(std::int32_t i, NeighbourhoodCentre to) {
-  layers_[layer_of(i)].move(i, centre(i), to, radius(i));
+  const NeighbourhoodCentre from = centre(i);
   around_.set_centre(i, to);
   search(i);
+  // Not before the search, which excludes the disk itself: it would wait until what has just been written has left the processor.
+  layers_[layer_of(i)].move(i, from, to, radius(i));
   if (gone_.size() < count(i) + 16) gone_.resize(2 * std::size_t{count(i)} + 16);
   const auto [fresh, gone] = kernel_->compare(ids(i), count(i), found_.data(), found_count_, fresh_.data(), gone_.data());
   for (std::size_t k = fresh; k < fresh + 8; ++k) fresh_[k] = i;

@@ -46,7 +46,7 @@ struct NeighbourSearchKernel {
                           const NeighbourQuery& query, const NeighbourCriterion& nearness, std::int32_t* found);
   /// Compares two lists without doubles: writes to `fresh` the ids that are found, but not listed, and to `gone` those that are
   /// listed, but not found, in the order of the lists. Requires eight ids of either to be readable, or as many as the next
-  /// multiple of eight, and room for eight more than there are.
+  /// multiple of eight, and room for sixteen more than there are.
   ListChange (*compare)(const std::int32_t* listed, std::size_t listed_count, const std::int32_t* found, std::size_t found_count,
                         std::int32_t* fresh, std::int32_t* gone);
   /// Returns the index of `id` in `ids`. Requires it to be there, and all to be readable up to the next multiple of eight.

@@ -100,7 +100,7 @@ TEST_P(NeighbourSearchKernels, CompareListsInTheirOrder) {
       const std::size_t found_size = found.size();
       while (listed.size() < 56) listed.push_back(static_cast<std::int32_t>(random() % 150));
       while (found.size() < 56) found.push_back(static_cast<std::int32_t>(random() % 150));
-      std::vector<std::int32_t> fresh(found_size + 8), gone(size + 8);
+      std::vector<std::int32_t> fresh(found_size + 16), gone(size + 16);
       const ListChange change =
           kernel(GetParam()).compare(listed.data(), size, found.data(), found_size, fresh.data(), gone.data());
       fresh.resize(change.fresh);
