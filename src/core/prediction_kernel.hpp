@@ -81,6 +81,21 @@ CAROM_INLINE unsigned bits_of(Longs mask) {
 /// Not std::min: where the two are equal, either will do.
 CAROM_INLINE Doubles lesser(Doubles a, Doubles b) { return a < b ? a : b; }
 
+/// x where it is above zero, else zero: one instruction, where a compiler takes a comparison and a selection.
+CAROM_INLINE Doubles above_zero(Doubles x) {
+#if defined(__AVX__)
+  return reinterpret_cast<Doubles>(_mm256_max_pd(reinterpret_cast<__m256d>(x), _mm256_setzero_pd()));
+#else
+  return x > all(0.0) ? x : all(0.0);
+#endif
+}
+#if defined(__AVX512F__)
+CAROM_INLINE EightDoubles lesser(EightDoubles a, EightDoubles b) { return a < b ? a : b; }
+CAROM_INLINE EightDoubles above_zero(EightDoubles x) {
+  return reinterpret_cast<EightDoubles>(_mm512_maskz_max_pd(0xFF, reinterpret_cast<__m512d>(x), _mm512_setzero_pd()));
+}
+#endif
+
 /// A line spread over all lanes.
 struct PlainMine {
   Longs x, y;
@@ -118,6 +133,11 @@ CAROM_INLINE Mine<Line> mine_of(const Line& line, const PredictionFrame& frame, 
 }
 
 template <class Line>
+CAROM_INLINE Mine<Line> mine_of(const Line& line, const PredictionFrame& frame) {
+  return mine_of(line, frame, all(line.x[0]), all(line.x[1]), all(line.v[0]), all(line.v[1]));
+}
+
+template <class Line>
 CAROM_INLINE Longs load(const Line& line) {
   return *reinterpret_cast<const StoredLongs*>(&line);
 }
@@ -144,8 +164,7 @@ CAROM_INLINE Lanes contact_times(const PredictionFrame& frame, Lanes x, Lanes y,
     const Lanes s = x * vy - y * vx;
     const Lanes d = sigma2 * (vx * vx + vy * vy) - s * s;
     const Lanes c = (x * x + y * y) - sigma2;
-    Lanes wait = c / (square_root(d) - b);
-    wait = wait > zero ? wait : zero;
+    const Lanes wait = above_zero(c / (square_root(d) - b));
     const auto meets = (b < zero) & (d >= zero);
     return meets ? start + wait : none;
   } else {
@@ -215,10 +234,11 @@ CAROM_INLINE void earliest(Doubles t0, Doubles t1, Doubles t2, const std::int32_
   first.tied = static_cast<std::int32_t>(which & (which - 1)) & ~no_partner;
 }
 
-/// Predicts with all neighbours beyond the first twelve, four at a time.
+/// Predicts disk i with all neighbours beyond the first twelve, four at a time.
 template <bool growing, class Line>
-void search_on(const Line* lines, const PredictionFrame& frame, const Mine<Line>& mine, const Surroundings& around, double now,
-               Prediction& first) {
+[[gnu::noinline]] void search_on(const Line* lines, const PredictionFrame& frame, std::int32_t i, const Surroundings& around,
+                                 double now, Prediction& first) {
+  const Mine<Line> mine = mine_of(lines[i], frame);
   for (std::uint32_t k = 12; k < around.count; k += 4) {
     Prediction next;
     earliest(meeting_times<growing>(lines, frame, mine, around.ids + k, now), all(never), around.ids + k, next);
@@ -240,8 +260,7 @@ CAROM_INLINE Doubles leaving_times(const PredictionFrame& frame, Longs x, Double
   const Longs sign = reinterpret_cast<Longs>(v) & (-0x7FFFFFFFFFFFFFFFLL - 1);
   const Doubles ahead = reinterpret_cast<Doubles>(reinterpret_cast<Longs>(off) ^ sign);
   const Doubles speed = reinterpret_cast<Doubles>(reinterpret_cast<Longs>(v) ^ sign);
-  Doubles room = all(frame.half_width) - ahead;
-  room = room > all(0.0) ? room : all(0.0);
+  const Doubles room = above_zero(all(frame.half_width) - ahead);
   const Doubles exact = all(now) + room / speed;
   // Adding a number whose last place is a step, and taking it away again, rounds to steps.
   const Doubles shift = all(frame.edge_step * 0x1.8p52);
@@ -249,23 +268,6 @@ CAROM_INLINE Doubles leaving_times(const PredictionFrame& frame, Longs x, Double
   const Doubles rounded = nearest > exact ? nearest - all(frame.edge_step) : nearest;
   const Doubles time = rounded > all(now) ? rounded : exact;
   return v != all(0.0) ? time : all(never);
-}
-
-template <bool growing, class Line>
-void predict(const Line* lines, const PredictionFrame& frame, std::int32_t i, const Surroundings& around, double now,
-             Prediction& ahead) {
-  const Line& line = lines[i];
-  const Mine<Line> mine = mine_of(line, frame, all(line.x[0]), all(line.x[1]), all(line.v[0]), all(line.v[1]));
-  const Doubles t0 = meeting_times<growing>(lines, frame, mine, around.ids, now);
-  Doubles t1 = all(never);
-  if (around.count > 4) t1 = meeting_times<growing>(lines, frame, mine, around.ids + 4, now);  // those new on a list are few
-  const Doubles leaving = leaving_times(frame, Longs{line.x[0], line.x[1], 0, 0}, Doubles{line.v[0], line.v[1], 1.0, 1.0},
-                                        Longs{around.centre[0], around.centre[1], 0, 0}, now);
-  ahead.edge_time = leaving[0] < leaving[1] ? leaving[0] : leaving[1];
-  if (around.count <= 8) return earliest(t0, t1, around.ids, ahead);
-  const Doubles t2 = meeting_times<growing>(lines, frame, mine, around.ids + 8, now);
-  earliest(t0, t1, t2, around.ids, ahead);
-  if (around.count > 12) search_on<growing>(lines, frame, mine, around, now, ahead);
 }
 
 template <class Line>
@@ -326,16 +328,41 @@ struct MixedMineOfEight : PlainMineOfEight {
   const double *scales, *more_scales;
 };
 
-CAROM_INLINE EightLongs both(Longs a, Longs b) { return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7); }
-CAROM_INLINE EightDoubles both(Doubles a, Doubles b) { return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7); }
-CAROM_INLINE PlainMineOfEight both(const PlainMine& a, const PlainMine& b) {
-  return {both(a.x, b.x), both(a.y, b.y), both(a.vx, b.vx), both(a.vy, b.vy), both(all(a.radius), all(b.radius))};
+CAROM_INLINE EightLongs all_eight(std::int64_t x) { return EightLongs{x, x, x, x, x, x, x, x}; }
+
+/// Spread by the instructions that load: shuffles are what the vectors of neighbours have to wait for.
+template <class Line>
+CAROM_INLINE auto mine_of_eight(const Line& line, [[maybe_unused]] const PredictionFrame& frame) {
+  PlainMineOfEight mine{all_eight(line.x[0]), all_eight(line.x[1]), all_eight(line.v[0]), all_eight(line.v[1]), EightDoubles{}};
+  if constexpr (sizeof(Line) > 32) mine.radius = all_eight(line.radius);
+  if constexpr (is_mixed<Line>) {
+    const double* const scales = frame.contact_scales + std::ptrdiff_t{line.species} * frame.kinds;
+    return MixedMineOfEight{mine, scales, scales};
+  } else {
+    return mine;
+  }
 }
-CAROM_INLINE MixedMineOfEight both(const MixedMine& a, const MixedMine& b) {
-  return {both(static_cast<const PlainMine&>(a), static_cast<const PlainMine&>(b)), a.scales, b.scales};
+
+/// The lower half of one vector and the upper of another.
+CAROM_INLINE EightDoubles halves(EightDoubles a, EightDoubles b) {
+  return reinterpret_cast<EightDoubles>(_mm512_mask_mov_pd(reinterpret_cast<__m512d>(a), 0xF0, reinterpret_cast<__m512d>(b)));
 }
-CAROM_INLINE Doubles low_half(EightDoubles a) { return __builtin_shufflevector(a, a, 0, 1, 2, 3); }
-CAROM_INLINE Doubles high_half(EightDoubles a) { return __builtin_shufflevector(a, a, 4, 5, 6, 7); }
+CAROM_INLINE EightLongs halves(EightLongs a, EightLongs b) {
+  return reinterpret_cast<EightLongs>(halves(reinterpret_cast<EightDoubles>(a), reinterpret_cast<EightDoubles>(b)));
+}
+CAROM_INLINE PlainMineOfEight halves(const PlainMineOfEight& a, const PlainMineOfEight& b) {
+  return {halves(a.x, b.x), halves(a.y, b.y), halves(a.vx, b.vx), halves(a.vy, b.vy), halves(a.radius, b.radius)};
+}
+CAROM_INLINE MixedMineOfEight halves(const MixedMineOfEight& a, const MixedMineOfEight& b) {
+  return {halves(static_cast<const PlainMineOfEight&>(a), static_cast<const PlainMineOfEight&>(b)), a.scales, b.scales};
+}
+
+/// Loads the first four numbers of two lines.
+template <class Line>
+CAROM_INLINE EightLongs load_both(const Line& a, const Line& b) {
+  const __m256i low = reinterpret_cast<__m256i>(load(a)), high = reinterpret_cast<__m256i>(load(b));
+  return reinterpret_cast<EightLongs>(_mm512_maskz_inserti64x4(0xFF, _mm512_castsi256_si512(low), high, 1));
+}
 
 /// Returns the lengths of a separation in steps that wraps.
 CAROM_INLINE EightDoubles lengths(EightLongs a, EightLongs b, double unit) {
@@ -343,14 +370,19 @@ CAROM_INLINE EightDoubles lengths(EightLongs a, EightLongs b, double unit) {
   return reinterpret_cast<EightDoubles>(_mm512_maskz_cvtepi64_pd(0xFF, steps)) * all_eight(unit);
 }
 
-/// When `mine` meets each of eight others: four and four.
-template <bool growing, class Line, class MineOfEight>
-CAROM_INLINE EightDoubles meeting_times(const Line* lines, const PredictionFrame& frame, const MineOfEight& mine,
-                                        const std::int32_t* ids, const std::int32_t* more, double now) {
+/// Separations at `now` and relative velocities of eight pairs, and their contact distances.
+struct RelativeMotion {
+  EightDoubles x, y, vx, vy, sigma;
+};
+
+/// The motion of `mine` relative to each of eight others: four and four.
+template <class Line, class MineOfEight>
+CAROM_INLINE RelativeMotion relative_motion(const Line* lines, const PredictionFrame& frame, const MineOfEight& mine,
+                                            const std::int32_t* ids, const std::int32_t* more, double now) {
   const Line &l0 = lines[ids[0]], &l1 = lines[ids[1]], &l2 = lines[ids[2]], &l3 = lines[ids[3]];
   const Line &l4 = lines[more[0]], &l5 = lines[more[1]], &l6 = lines[more[2]], &l7 = lines[more[3]];
-  const EightLongs a02 = both(load(l0), load(l2)), a13 = both(load(l1), load(l3));
-  const EightLongs a46 = both(load(l4), load(l6)), a57 = both(load(l5), load(l7));
+  const EightLongs a02 = load_both(l0, l2), a13 = load_both(l1, l3);
+  const EightLongs a46 = load_both(l4, l6), a57 = load_both(l5, l7);
   const EightLongs x0 = __builtin_shufflevector(a02, a13, 0, 8, 2, 10, 4, 12, 6, 14);
   const EightLongs x4 = __builtin_shufflevector(a46, a57, 0, 8, 2, 10, 4, 12, 6, 14);
   const EightLongs y0 = __builtin_shufflevector(a02, a13, 1, 9, 3, 11, 5, 13, 7, 15);
@@ -372,28 +404,193 @@ CAROM_INLINE EightDoubles meeting_times(const Line* lines, const PredictionFrame
     sigma *= EightDoubles{scales[l0.species],    scales[l1.species],    scales[l2.species],    scales[l3.species],
                           with_more[l4.species], with_more[l5.species], with_more[l6.species], with_more[l7.species]};
   }
+  return {x, y, vx, vy, sigma};
+}
+
+/// When `mine` meets each of eight others: four and four.
+template <bool growing, class Line, class MineOfEight>
+CAROM_INLINE EightDoubles meeting_times(const Line* lines, const PredictionFrame& frame, const MineOfEight& mine,
+                                        const std::int32_t* ids, const std::int32_t* more, double now) {
+  const auto [x, y, vx, vy, sigma] = relative_motion(lines, frame, mine, ids, more, now);
   return contact_times<growing>(frame, x, y, vx, vy, sigma, now);
 }
 
-/// What collided disks meet first among their first eight and, where `most` has more, twelve neighbours.
-template <bool growing, class Line>
-CAROM_INLINE void first_meetings(const Line* lines, const PredictionFrame& frame, const Mine<Line>& a, const Mine<Line>& b,
-                                 std::uint32_t most, double now, CollidedPair& pair) {
-  const std::int32_t *const ids_a = pair.around[0].ids, *const ids_b = pair.around[1].ids;
-  const EightDoubles ta = meeting_times<growing>(lines, frame, both(a, a), ids_a, ids_a + 4, now);
-  const EightDoubles tb = meeting_times<growing>(lines, frame, both(b, b), ids_b, ids_b + 4, now);
-  if (most <= 8) {
-    earliest(low_half(ta), high_half(ta), ids_a, pair.ahead[0]);
-    earliest(low_half(tb), high_half(tb), ids_b, pair.ahead[1]);
-    return;
-  }
-  const EightDoubles more = meeting_times<growing>(lines, frame, both(a, b), ids_a + 8, ids_b + 8, now);
-  earliest(low_half(ta), high_half(ta), low_half(more), ids_a, pair.ahead[0]);
-  earliest(low_half(tb), high_half(tb), high_half(more), ids_b, pair.ahead[1]);
+/// The terms of contact_times() for eight pairs, up to the root and the quotient, and which of these pairs meet: a bit for each.
+/// They are few: mostly one to three.
+struct Approach {
+  EightDoubles b, c, d;
+  unsigned meeting;
+};
+
+template <class Line>
+CAROM_INLINE Approach approach(const Line* lines, const PredictionFrame& frame, std::int32_t i, const std::int32_t* ids,
+                               double now) {
+  const auto [x, y, vx, vy, sigma] = relative_motion(lines, frame, mine_of_eight(lines[i], frame), ids, ids + 4, now);
+  const EightDoubles sigma2 = sigma * sigma;
+  const EightDoubles b = x * vx + y * vy;
+  const EightDoubles s = x * vy - y * vx;
+  const EightDoubles d = sigma2 * (vx * vx + vy * vy) - s * s;
+  const __mmask8 nearing = _mm512_cmp_pd_mask(reinterpret_cast<__m512d>(b), _mm512_setzero_pd(), _CMP_LT_OQ);
+  const __mmask8 meeting = _mm512_mask_cmp_pd_mask(nearing, reinterpret_cast<__m512d>(d), _mm512_setzero_pd(), _CMP_GE_OQ);
+  return {b, (x * x + y * y) - sigma2, d, meeting};
 }
 
-#else
+/// For each set of eight lanes the first four of them, a byte for each.
+struct FirstFour {
+  std::uint32_t lanes[256];
 
+  constexpr FirstFour() : lanes{} {
+    for (unsigned bits = 0; bits < 256; ++bits)
+      for (unsigned lane = 0, n = 0; lane < 8 && n < 4; ++lane)
+        if ((bits >> lane & 1U) != 0) lanes[bits] |= lane << 8 * n++;
+  }
+};
+constexpr FirstFour first_four;
+
+/// Returns a bit for each of the first four of some lanes, from the lowest on.
+CAROM_INLINE unsigned up_to_four(unsigned lanes) { return _bzhi_u32(0xF, static_cast<unsigned>(__builtin_popcount(lanes))); }
+/// Leaves out the first four of some lanes.
+CAROM_INLINE unsigned after_four(unsigned lanes) { return lanes & ~_pdep_u32(0xF, lanes); }
+
+/// The times of the first four of some pairs that meet; of fewer, and never.
+CAROM_INLINE Doubles first_times(const Approach& a, unsigned meeting, double now) {
+  const __m512i which = _mm512_maskz_cvtepu8_epi64(0xFF, _mm_cvtsi32_si128(static_cast<int>(first_four.lanes[meeting])));
+  const auto of = [which](EightDoubles terms) {
+    const auto those = reinterpret_cast<EightDoubles>(_mm512_maskz_permutexvar_pd(0xFF, which, reinterpret_cast<__m512d>(terms)));
+    return __builtin_shufflevector(those, those, 0, 1, 2, 3);
+  };
+  const Doubles wait = above_zero(of(a.c) / (square_root(of(a.d)) - of(a.b)));
+  return reinterpret_cast<Doubles>(_mm256_mask_add_pd(_mm256_set1_pd(never), static_cast<__mmask8>(up_to_four(meeting)),
+                                                      _mm256_set1_pd(now), reinterpret_cast<__m256d>(wait)));
+}
+/// The same for two disks at once: the first four of the one, then the first four of the other.
+CAROM_INLINE EightDoubles first_times(const Approach& a, unsigned meeting_a, const Approach& b, unsigned meeting_b, double now) {
+  const std::uint64_t lanes = first_four.lanes[meeting_a] | std::uint64_t{first_four.lanes[meeting_b] | 0x08080808U} << 32;
+  const __m512i which = _mm512_maskz_cvtepu8_epi64(0xFF, _mm_cvtsi64_si128(static_cast<long long>(lanes)));
+  const auto of = [which](EightDoubles terms_a, EightDoubles terms_b) {
+    return reinterpret_cast<EightDoubles>(
+        _mm512_permutex2var_pd(reinterpret_cast<__m512d>(terms_a), which, reinterpret_cast<__m512d>(terms_b)));
+  };
+  const EightDoubles wait = above_zero(of(a.c, b.c) / (square_root(of(a.d, b.d)) - of(a.b, b.b)));
+  const auto there = static_cast<__mmask8>(up_to_four(meeting_a) | up_to_four(meeting_b) << 4);
+  return reinterpret_cast<EightDoubles>(
+      _mm512_mask_add_pd(_mm512_set1_pd(never), there, _mm512_set1_pd(now), reinterpret_cast<__m512d>(wait)));
+}
+
+/// The least of four times in all lanes; of eight, the least of the first four in their lanes and that of the others in the
+/// others.
+CAROM_INLINE Doubles least_of_fours(Doubles t) {
+  const Doubles u = lesser(t, __builtin_shufflevector(t, t, 2, 3, 0, 1));
+  return lesser(u, __builtin_shufflevector(u, u, 1, 0, 3, 2));
+}
+CAROM_INLINE EightDoubles least_of_fours(EightDoubles t) {
+  const EightDoubles u = lesser(t, __builtin_shufflevector(t, t, 2, 3, 0, 1, 6, 7, 4, 5));
+  return lesser(u, __builtin_shufflevector(u, u, 1, 0, 3, 2, 5, 4, 7, 6));
+}
+CAROM_INLINE unsigned bits_of_equal(Doubles a, Doubles b) {
+  return _mm256_cmp_pd_mask(reinterpret_cast<__m256d>(a), reinterpret_cast<__m256d>(b), _CMP_EQ_OQ);
+}
+CAROM_INLINE unsigned bits_of_equal(EightDoubles a, EightDoubles b) {
+  return _mm512_cmp_pd_mask(reinterpret_cast<__m512d>(a), reinterpret_cast<__m512d>(b), _CMP_EQ_OQ);
+}
+
+/// The earliest time, which those of the first twelve neighbours have that have a bit in `which`, into `first`.
+CAROM_INLINE void earliest(double time, unsigned which, const std::int32_t* ids, Prediction& first) {
+  const std::int32_t no_partner = -static_cast<std::int32_t>(time == never);  // all bits or none
+  first.pair_time = time;
+  first.partner = ids[_tzcnt_u32(which) & 15U] | no_partner;  // the first id where there is none
+  first.tied = static_cast<std::int32_t>(which & (which - 1)) & ~no_partner;
+}
+
+/// What disk i meets first among its first twelve neighbours.
+template <class Line>
+CAROM_INLINE void first_meeting(const Line* lines, const PredictionFrame& frame, std::int32_t i, const Surroundings& around,
+                                double now, Prediction& first) {
+  const std::int32_t* const ids = around.ids;
+  if (around.count <= 4) {
+    const Doubles t = meeting_times<false>(lines, frame, mine_of(lines[i], frame), ids, now);
+    const Doubles least = least_of_fours(t);
+    return earliest(least[0], bits_of_equal(t, least), ids, first);
+  }
+  const Approach to = approach(lines, frame, i, ids, now);
+  const unsigned rest = after_four(to.meeting);
+  const Doubles t = first_times(to, to.meeting, now);
+  Doubles of_all = t, of_rest = t, of_more = t;
+  if (rest != 0) [[unlikely]]
+    of_all = lesser(of_all, of_rest = first_times(to, rest, now));
+  if (around.count > 8)
+    of_all = lesser(of_all, of_more = meeting_times<false>(lines, frame, mine_of(lines[i], frame), ids + 8, now));
+  const Doubles least = least_of_fours(of_all);
+  unsigned which = _pdep_u32(bits_of_equal(t, least), to.meeting);
+  if (rest != 0) [[unlikely]]
+    which |= _pdep_u32(bits_of_equal(of_rest, least), rest);
+  if (around.count > 8) which |= bits_of_equal(of_more, least) << 8;
+  earliest(least[0], which, ids, first);
+}
+
+/// What collided disks meet first among their first eight and, where `most` has more, twelve neighbours.
+template <class Line>
+CAROM_INLINE void first_meetings(const Line* lines, const PredictionFrame& frame, std::uint32_t most, double now,
+                                 CollidedPair& pair) {
+  const std::int32_t *const ids_a = pair.around[0].ids, *const ids_b = pair.around[1].ids;
+  const Approach a = approach(lines, frame, pair.disk[0], ids_a, now), b = approach(lines, frame, pair.disk[1], ids_b, now);
+  const unsigned rest_a = after_four(a.meeting), rest_b = after_four(b.meeting);
+  const bool rest = (rest_a | rest_b) != 0, more = most > 8;
+  const EightDoubles t = first_times(a, a.meeting, b, b.meeting, now);
+  EightDoubles of_all = t, of_rest = t, of_more = t;
+  if (rest) [[unlikely]]
+    of_all = lesser(of_all, of_rest = first_times(a, rest_a, b, rest_b, now));
+  if (more) {
+    const auto mine = halves(mine_of_eight(lines[pair.disk[0]], frame), mine_of_eight(lines[pair.disk[1]], frame));
+    of_all = lesser(of_all, of_more = meeting_times<false>(lines, frame, mine, ids_a + 8, ids_b + 8, now));
+  }
+  const EightDoubles least = least_of_fours(of_all);
+  const unsigned first = bits_of_equal(t, least);
+  unsigned which_a = _pdep_u32(first & 0xF, a.meeting), which_b = _pdep_u32(first >> 4, b.meeting);
+  if (rest) [[unlikely]] {
+    const unsigned equal = bits_of_equal(of_rest, least);
+    which_a |= _pdep_u32(equal & 0xF, rest_a), which_b |= _pdep_u32(equal >> 4, rest_b);
+  }
+  if (more) {
+    const unsigned equal = bits_of_equal(of_more, least);
+    which_a |= (equal & 0xF) << 8, which_b |= equal >> 4 << 8;
+  }
+  earliest(least[0], which_a, ids_a, pair.ahead[0]);
+  earliest(least[4], which_b, ids_b, pair.ahead[1]);
+}
+
+/// The same for disks that grow: most of them meet sooner or later.
+template <class Line>
+CAROM_INLINE void first_meetings_of_growing(const Line* lines, const PredictionFrame& frame, std::uint32_t most, double now,
+                                            CollidedPair& pair) {
+  const std::int32_t *const ids_a = pair.around[0].ids, *const ids_b = pair.around[1].ids;
+  const auto a = mine_of_eight(lines[pair.disk[0]], frame), b = mine_of_eight(lines[pair.disk[1]], frame);
+  const auto low = [](EightDoubles t) { return __builtin_shufflevector(t, t, 0, 1, 2, 3); };
+  const auto high = [](EightDoubles t) { return __builtin_shufflevector(t, t, 4, 5, 6, 7); };
+  const EightDoubles ta = meeting_times<true>(lines, frame, a, ids_a, ids_a + 4, now);
+  const EightDoubles tb = meeting_times<true>(lines, frame, b, ids_b, ids_b + 4, now);
+  EightDoubles more = all_eight(never);
+  if (most > 8) more = meeting_times<true>(lines, frame, halves(a, b), ids_a + 8, ids_b + 8, now);
+  earliest(low(ta), high(ta), low(more), ids_a, pair.ahead[0]);
+  earliest(low(tb), high(tb), high(more), ids_b, pair.ahead[1]);
+}
+
+#endif
+
+/// What a disk meets first among its first twelve neighbours, four at a time.
+template <bool growing, class Line>
+CAROM_INLINE void first_meeting_by_fours(const Line* lines, const PredictionFrame& frame, const Mine<Line>& mine,
+                                         const Surroundings& around, double now, Prediction& first) {
+  const Doubles t0 = meeting_times<growing>(lines, frame, mine, around.ids, now);
+  Doubles t1 = all(never);
+  if (around.count > 4) t1 = meeting_times<growing>(lines, frame, mine, around.ids + 4, now);  // those new on a list are few
+  if (around.count <= 8) return earliest(t0, t1, around.ids, first);
+  const Doubles t2 = meeting_times<growing>(lines, frame, mine, around.ids + 8, now);
+  earliest(t0, t1, t2, around.ids, first);
+}
+
+#if !defined(__AVX512F__)
+/// What collided disks meet first among their first eight and, where `most` has more, twelve neighbours, four at a time.
 template <bool growing, class Line>
 CAROM_INLINE void first_meetings(const Line* lines, const PredictionFrame& frame, const Mine<Line>& a, const Mine<Line>& b,
                                  std::uint32_t most, double now, CollidedPair& pair) {
@@ -412,8 +609,23 @@ CAROM_INLINE void first_meetings(const Line* lines, const PredictionFrame& frame
   earliest(a0, a1, a2, ids_a, pair.ahead[0]);
   earliest(b0, b1, b2, ids_b, pair.ahead[1]);
 }
-
 #endif
+
+template <bool growing, class Line>
+void predict(const Line* lines, const PredictionFrame& frame, std::int32_t i, const Surroundings& around, double now,
+             Prediction& ahead) {
+  const Line& line = lines[i];
+  const Doubles leaving = leaving_times(frame, Longs{line.x[0], line.x[1], 0, 0}, Doubles{line.v[0], line.v[1], 1.0, 1.0},
+                                        Longs{around.centre[0], around.centre[1], 0, 0}, now);
+  ahead.edge_time = leaving[0] < leaving[1] ? leaving[0] : leaving[1];
+#if defined(__AVX512F__)
+  if constexpr (!growing)
+    first_meeting(lines, frame, i, around, now, ahead);
+  else
+#endif
+    first_meeting_by_fours<growing>(lines, frame, mine_of(line, frame), around, now, ahead);
+  if (around.count > 12) search_on<growing>(lines, frame, i, around, now, ahead);
+}
 
 template <bool growing, bool falling, class Line>
 void turn_and_predict(Line* lines, const PredictionFrame& frame, CollidedPair& pair, double now, double avx, double avy,
@@ -426,18 +638,25 @@ void turn_and_predict(Line* lines, const PredictionFrame& frame, CollidedPair& p
   store(a, x, v, false);
   store(b, x, v, true);
 
-  const Mine<Line> mine_a = mine_of(a, frame, all_of<0>(x), all_of<1>(x), all(avx), all(avy));
-  const Mine<Line> mine_b = mine_of(b, frame, all_of<2>(x), all_of<3>(x), all(bvx), all(bvy));
   const std::uint32_t most = near_a.count > near_b.count ? near_a.count : near_b.count;
   const Longs centre = {near_a.centre[0], near_a.centre[1], near_b.centre[0], near_b.centre[1]};
   const Doubles leaving = leaving_times(frame, x, v, centre, now);
   const Doubles edge = lesser(leaving, __builtin_shufflevector(leaving, leaving, 1, 0, 3, 2));
   pair.ahead[0].edge_time = edge[0];
   pair.ahead[1].edge_time = edge[2];
+#if defined(__AVX512F__)
+  if constexpr (growing)
+    first_meetings_of_growing(lines, frame, most, now, pair);
+  else
+    first_meetings(lines, frame, most, now, pair);
+#else
+  const Mine<Line> mine_a = mine_of(a, frame, all_of<0>(x), all_of<1>(x), all(avx), all(avy));
+  const Mine<Line> mine_b = mine_of(b, frame, all_of<2>(x), all_of<3>(x), all(bvx), all(bvy));
   first_meetings<growing>(lines, frame, mine_a, mine_b, most, now, pair);
+#endif
   if (most <= 12) return;
-  if (near_a.count > 12) search_on<growing>(lines, frame, mine_a, near_a, now, pair.ahead[0]);
-  if (near_b.count > 12) search_on<growing>(lines, frame, mine_b, near_b, now, pair.ahead[1]);
+  if (near_a.count > 12) search_on<growing>(lines, frame, pair.disk[0], near_a, now, pair.ahead[0]);
+  if (near_b.count > 12) search_on<growing>(lines, frame, pair.disk[1], near_b, now, pair.ahead[1]);
 }
 
 }  // namespace

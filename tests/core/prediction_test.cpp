@@ -437,6 +437,34 @@ TEST_P(PredictionKernels, SayThatTwoAreTiedWhereverTheyStandInTheList) {
       }
 }
 
+TEST_P(PredictionKernels, FindTheFirstForBothDisksOfAPairWhereverItStandsAmongManyThatMeetThem) {
+  // Two disks at rest, far apart, towards each of which all others of its list fly: one touches it at t = 2, one at t = 7, the
+  // next at t = 8, and so on.
+  const double step = 0x1p-56;
+  const PredictionFrame frame = frame_of(step, 1.0, 100.0);
+  std::vector<Flight> lines(64);
+  for (std::size_t j = 0; j < 64; ++j) {
+    const double distance = j % 32 == 0 ? 0.0 : j % 32 == 1 ? 3.0 : 6.0 + static_cast<double>(j % 32);
+    lines[j] = {{whole(distance / step), whole((j < 32 ? 0.0 : 50.0) / step)}, {distance > 0.0 ? -1.0 : 0.0, 0.0}};
+  }
+  const auto list = [](std::int32_t self, std::size_t length, std::size_t place) {
+    std::vector<std::int32_t> others;
+    for (std::size_t k = 0; k < length; ++k) others.push_back(self + 2 + static_cast<std::int32_t>(k));
+    if (place < length) others[place] = self + 1;
+    return List(self, others);
+  };
+  for (std::size_t length_a = 0; length_a <= 20; ++length_a)
+    for (std::size_t length_b = 0; length_b <= 20; ++length_b)
+      for (std::size_t place = 0; place <= std::max(length_a, length_b); ++place) {
+        const List first = list(0, length_a, place), second = list(32, length_b, place);
+        CollidedPair pair{{0, 32}, {first.around(), second.around()}, {}, 0, 0};
+        std::vector<Flight> turned = lines;
+        kernel<Flight>(GetParam()).turn_and_predict(turned.data(), frame, pair, 0.0, 0.0, 0.0, 0.0, 0.0);
+        ASSERT_NO_FATAL_FAILURE(expect_as_twin(lines, frame, 0, first, 0.0, pair.ahead[0])) << length_a << " " << place;
+        ASSERT_NO_FATAL_FAILURE(expect_as_twin(lines, frame, 32, second, 0.0, pair.ahead[1])) << length_b << " " << place;
+      }
+}
+
 TEST_P(PredictionKernels, MeetRoundThePeriodicEdge) {
   // A box of length 16: from 15.5 to 0.5 there is a way of 1 through the edge.
   const double step = 0x1p-60;
