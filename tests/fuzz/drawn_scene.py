@@ -181,6 +181,7 @@ def draw_disks(r, scene, walled):
     radii = [0.5 * r.choice([1.0, 1.0, r.uniform(0.3, 1.0), 0.1 if kinds > 1 else 1.0]) for _ in counts]
     start = r.choice(["random"] * 5 + ["square", "hexagonal", "grown", "listed", "listed", "listed", "file"])
     fractions = {"random": (0.005, 0.4), "square": (0.05, 0.6), "hexagonal": (0.1, 0.7), "grown": (0.1, 0.75)}
+    gas.start = start
     gas.fraction = r.uniform(*fractions.get(start, (0.1, 0.6)))
     gas.radius = max(radii, default=0.5)
     aspect = r.choice([1.0, 1.0, 1.0, r.uniform(1.0, 4.0), 1.0 / r.uniform(1.0, 4.0)])
@@ -293,7 +294,7 @@ def draw_effects(r, scene, walled, gas):
     events = 10 ** r.uniform(0.5, 3.0)
     gas.time = min(2.0 * events / max(gas.count, 1) / rate_of_disk, 60.0 * crossing)
     gas.mean_free_time = min(1.0 / rate_of_disk, crossing)
-    wanted = [name for name in ("gravity", "walls", "obstacles", "growth", "thermostat", "shear", "square_well", "stepped_potential", "drag") if r.random() < 0.25]
+    wanted = [name for name in ("gravity", "walls", "obstacles", "growth", "thermostat", "shear", "square_well", "stepped_potential", "drag", "non_additivity") if r.random() < 0.25]
     r.shuffle(wanted)
     if any(walled) and r.random() < 0.3 and "walls" not in wanted:
         wanted.append("walls")
@@ -303,6 +304,8 @@ def draw_effects(r, scene, walled, gas):
             if drawn & FORBIDDEN.get(name, set()):
                 continue
             if name == "shear" and any(walled) or name in ("walls", "gravity") and not any(walled):
+                continue
+            if name == "non_additivity" and (len(scene.tables.get("disks", [])) < 2 or "roughness" in scene.tables["collision"]):
                 continue
         drawn.add(name)
     tables = scene.tables
@@ -331,21 +334,40 @@ def draw_effects(r, scene, walled, gas):
         moving = any({"temperature", "velocity", "mass"} & set(wall) for wall in tables.get("walls", {}).values())
         neutral = not scene.bold and (moving or {"roughness", "elastic_below"} & set(tables["collision"]))
         tables["drag"] = {"rate": rate(0.0 if neutral else r.choice([0.0, 0.1, 1.0, 3.0]) / gas.time)}
+    widest = gas.radius  # of half the contact distances
+    if "non_additivity" in drawn:
+        tables["non_additivity"] = draw_contacts(r, gas, len(tables.get("disks", [])))
+        deltas = [tables["non_additivity"]["delta"]] + [pair["delta"] for pair in tables["non_additivity"].get("pairs", [])]
+        widest *= 1.0 + max(0.0, *deltas)
     if "square_well" in drawn:
         short = [side for side, w in zip(gas.sides, walled) if not w] + [1e9]
-        most = min(0.5 * min(short) / (2.0 * gas.radius) * 0.999, 2.0)
+        most = min(0.5 * min(short) / (2.0 * widest) * 0.999, 2.0)
         if most > 1.02 or scene.bold:
             width = r.choice([most, r.uniform(1.01, max(most, 1.02)), r.uniform(1.01, max(most, 1.02))])
             tables["square_well"] = {"width": width, "depth": energy(r.choice([0.0, 0.1, 0.5, 2.0, -0.1, -0.5, -2.0, 10.0]))}
     if "stepped_potential" in drawn:
         short = [side for side, w in zip(gas.sides, walled) if not w] + [1e9]
-        most = min(0.5 * min(short) / (2.0 * gas.radius) * 0.999, 2.0)
+        most = min(0.5 * min(short) / (2.0 * widest) * 0.999, 2.0)
         if most > 1.02 or scene.bold:
             widths = sorted(r.uniform(1.01, max(most, 1.02)) for _ in range(r.choice([1, 2, 3, 8])))
             energies = [energy(r.choice([0.0, 0.0, 0.1, 0.5, 2.0, -0.1, -0.5, -2.0, 10.0])) for _ in widths]
             tables["stepped_potential"] = {"steps": [{"width": w, "energy": e} for w, e in zip(widths, energies)]}
     if "obstacles" in tables:  # lists of tables come last in any order; the reader does not mind
         tables["obstacles"] = tables.pop("obstacles")
+
+
+def draw_contacts(r, gas, kinds):
+    """How near unlike disks come. Farther apart than the sum of their radii they start only where the start makes room for them."""
+    makes_room = gas.start in ("random", "grown")
+
+    def delta():
+        return r.choice([0.0, -0.1, -0.3, -0.9, r.uniform(-0.5, 0.0)] + [0.1, 0.2, r.uniform(0.0, 0.3)] * makes_room)
+
+    contacts = {"delta": delta()}
+    if r.random() < 0.4:
+        two = r.sample(range(kinds), 2) if kinds > 1 else [0, 1]
+        contacts["pairs"] = [{"species": two, "delta": delta()}]
+    return contacts
 
 
 def draw_wall(r, gas, side, grows):
@@ -458,7 +480,7 @@ def draw_observe(r, scene, walled, gas):
         if r.random() >= share or not (scene.bold or can_be_observed(name, scene, walled, gas)):
             continue
         settings = {}
-        if r.random() < 0.6:
+        if name != "free_flight" and r.random() < 0.6:
             settings["every"] = time(r.choice([dt * r.choice([1, 2, 3]) if isinstance(dt, float) else gas.time / 20, gas.time / r.uniform(1.0, 300.0)]))
         if name in ("free_flight", "speeds", "radial_distribution", "hexatic", "voronoi", "van_hove", "density_profile") and r.random() < 0.4:
             settings["bins"] = r.choice([2, 10, 333])

@@ -236,6 +236,22 @@ def box_of(trial, file, sample):
     return lower, upper, periodic
 
 
+def contact_distances(trial, file):
+    """The distance at which each pair of disks touches."""
+    radii = file["particles/trajectory/radius"][()]
+    sigma = radii[:, None] + radii[None, :]
+    mixture = trial.scene.table("non_additivity")
+    if not mixture or not len(radii):
+        return sigma
+    kind = file["particles/trajectory/species"][()]
+    delta = np.where(np.eye(kind.max() + 1, dtype=bool), 0.0, mixture.get("delta", 0.0))
+    for pair in mixture.get("pairs", []):
+        if max(pair["species"]) <= kind.max():  # a species may have no disks
+            one, other = pair["species"]
+            delta[one, other] = delta[other, one] = pair["delta"]
+    return sigma * (1.0 + delta[kind[:, None], kind[None, :]])
+
+
 def disks_apart(trial, file):
     """By numbers of their own: no sample, first, last or in between, shows disks in each other or beyond a wall."""
     count = len(file["particles/trajectory/position/value"])
@@ -243,7 +259,9 @@ def disks_apart(trial, file):
     place = EPSILON * np.abs(file["particles/trajectory/position/value"][()]).max(initial=0.0)
     radii = file["particles/trajectory/radius"][()]
     smallest = radii.min(initial=np.inf)
-    bound = max(1e-12, overlap.get("start", 0.0), start_overlap(file)) + 8.0 * place / smallest
+    sigma = contact_distances(trial, file)
+    smallest = min(smallest, 0.5 * sigma.min(initial=np.inf))
+    bound = max(1e-12, overlap.get("start", 0.0), start_overlap(file, sigma)) + 8.0 * place / smallest
     expect(overlap["max_relative"] <= bound, f"an overlap of {overlap['max_relative']:.3g} where {bound:.3g} is allowed")
     for sample in sorted({0, count // 3, count // 2, count - 1}) if count else ():
         lower, upper, periodic = box_of(trial, file, sample)
@@ -255,25 +273,24 @@ def disks_apart(trial, file):
         margin = 1e-11 * (upper - lower) + 32.0 * place
         out = np.where(periodic, (r < lower - margin) | (r > upper + margin), (r - radii[:, None] * scale < lower - margin) | (r + radii[:, None] * scale > upper + margin))
         expect(not out.any(), f"sample {sample}: disk {np.argwhere(out)[:1].tolist()} is out of the box")
-        deepest = deepest_overlap(r, radii * scale, upper - lower, periodic, slide)
+        deepest = deepest_overlap(r, sigma * scale, upper - lower, periodic, slide)
         expect(deepest <= bound + 64.0 * place / smallest, f"sample {sample}: an overlap of {deepest:.3g}")
 
 
-def start_overlap(file):
+def start_overlap(file, sigma):
     """What the start itself brought along: lists may overlap by 1e-9."""
-    r, radii = file["events/start/position"][()], file["particles/trajectory/radius"][()]
+    r = file["events/start/position"][()]
     box = file["particles/trajectory/box"]
     periodic = np.array([word in (b"periodic", "periodic") for word in box.attrs["boundary"][:2]])
     edges = box["edges/value"]
     if not len(edges) or len(r) > 300:
         return 1e-9
-    return max(0.0, min(1e-9, deepest_overlap(r, radii, np.diagonal(edges[0])[:2], periodic, 0.0)))
+    return max(0.0, min(1e-9, deepest_overlap(r, sigma, np.diagonal(edges[0])[:2], periodic, 0.0)))
 
 
-def deepest_overlap(r, radii, lengths, periodic, slide):
+def deepest_overlap(r, sigma, lengths, periodic, slide):
     """The largest (sigma - distance) / sigma over all pairs and their images, a disk's own among them."""
     deepest = 0.0
-    sigma = radii[:, None] + radii[None, :]
     apart = r[:, None, :] - r[None, :, :]
     base = np.where(periodic, np.round(apart / lengths), 0.0)
     for row in (-1, 0, 1) if periodic[1] else (0,):
@@ -555,7 +572,7 @@ class Log:
             self.time, self.disk, self.partner = (events[name][()] for name in ("time", "disk", "partner"))
             self.velocity, self.partner_velocity = events["velocity"][()], events["partner_velocity"][()]
             self.start = {name: events["start"][name][()] for name in ("position", "velocity")}
-            self.radius, self.mass = file["particles/trajectory/radius"][()], file["particles/trajectory/mass"][()]
+            self.radius, self.mass, self.species = (file[f"particles/trajectory/{name}"][()] for name in ("radius", "mass", "species"))
         self.engine = summary_of(out)["engine"]
 
     def __len__(self):
@@ -673,10 +690,11 @@ def nudge(trial, scene, start, by, edges, options):
         moved[:, axis] = np.clip(moved[:, axis], limits[axis][0], np.nextafter(limits[axis][1], limits[axis][0]))
     rows = np.column_stack([moved, start.start["velocity"], start.radius, start.mass])
     name = f"nudged{'+' if by > 0 else '-'}"
+    files = {f"{name}{kind}.csv": rows[start.species == kind] for kind in range(len(scene.tables["disks"]))}
     other = rewritten(scene, trial)
     other.tables["box"] = {"x": limits[0], "y": limits[1], "boundary": scene.tables["box"]["boundary"]}
-    other.tables["disks"] = [{"positions": {"file": f"{name}.csv"}}]
-    other.start_files = {f"{name}.csv": (["x", "y", "vx", "vy", "radius", "mass"], rows.tolist())}
+    other.tables["disks"] = [{"positions": {"file": file}} for file in files]
+    other.start_files = {file: (["x", "y", "vx", "vy", "radius", "mass"], disks.tolist()) for file, disks in files.items()}
     other.tables["run"] |= {"accept_overlap": True, "keep_momentum": True}
     out = trial.run(name, *options, "--engine", "textbook-long-double", scene=other, codes=(0, 2))
     return Log(out) if (out / "summary.json").exists() else None
