@@ -15,6 +15,7 @@ constexpr Entry catalogue[] = {
     {"temperature", &make_temperature},
     {"pressure", &make_pressure},
     {"collision_rate", &make_collision_rate},
+    {"contact_values", &make_contact_values},
     {"free_flight", &make_free_flight},
     {"speeds", &make_speeds},
     {"velocity_moments", &make_velocity_moments},

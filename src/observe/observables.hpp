@@ -29,6 +29,7 @@ struct MadeObservable {
 MadeObservable make_temperature(const ObservableRequest& request, const ObservedRun& run);
 MadeObservable make_pressure(const ObservableRequest& request, const ObservedRun& run);
 MadeObservable make_collision_rate(const ObservableRequest& request, const ObservedRun& run);
+MadeObservable make_contact_values(const ObservableRequest& request, const ObservedRun& run);
 MadeObservable make_free_flight(const ObservableRequest& request, const ObservedRun& run);
 MadeObservable make_speeds(const ObservableRequest& request, const ObservedRun& run);
 MadeObservable make_velocity_moments(const ObservableRequest& request, const ObservedRun& run);

@@ -81,6 +81,13 @@ bool ObservedRun::centre_of_mass_is_thermal(int axis) const {
   return carom::centre_of_mass_is_thermal(scene.box, scene.effects, axis);
 }
 
+double ObservedRun::degrees_of_freedom() const {
+  double freedom = 2.0 * static_cast<double>(disks.count());
+  for (int axis = 0; axis < 2; ++axis)
+    if (!centre_of_mass_is_thermal(axis)) freedom -= 1.0;
+  return freedom;
+}
+
 bool is_driven(const Effects& effects) {
   return detail::any_acting(effects, &detail::EffectTraits::changes_velocities_in_flight);
 }

@@ -35,6 +35,9 @@ struct ObservedRun {
   [[nodiscard]] bool conserves_momentum(int axis) const;
   /// Returns whether motion of the centre of mass along an axis is a part of the temperature.
   [[nodiscard]] bool centre_of_mass_is_thermal(int axis) const;
+  /// Returns the number of velocity components that share the temperature: 2 N, less those of the centre of mass that are not
+  /// heat.
+  [[nodiscard]] double degrees_of_freedom() const;
   /// Returns whether heat depends on where a disk is: thermal velocities are relative to a mean flow.
   [[nodiscard]] bool has_flow() const { return detail::MeanFlow(scene.box, scene.effects).present(); }
 };

@@ -1,5 +1,7 @@
 #include "observe/pressure.hpp"
 
+#include <boost/math/special_functions/gamma.hpp>
+
 #include <cmath>
 
 namespace carom {
@@ -39,5 +41,7 @@ std::optional<double> BlockedRate::standard_error() const {
   for (const Block& block : blocks_) squares += std::pow(block.increase - mean * block.duration, 2);
   return std::sqrt(n / (n - 1.0) * squares) / time_;
 }
+
+double mean_speed_factor(double d) { return d > 0.0 ? std::sqrt(0.5 * d) * boost::math::tgamma_delta_ratio(0.5 * d, 0.5) : 1.0; }
 
 }  // namespace carom

@@ -42,4 +42,8 @@ class BlockedRate {
   return 1.0 + virial_rate / (2.0 * disks * temperature);
 }
 
+/// Returns the mean size of a component of the velocity over that of a Maxwell gas of the same mean square, where d components
+/// share one fixed kinetic energy: c = sqrt(d / 2) Gamma(d / 2) / Gamma((d + 1) / 2), which is 1 for many; 1 with d <= 0.
+[[nodiscard]] double mean_speed_factor(double d);
+
 }  // namespace carom

@@ -16,11 +16,10 @@
 #include "observe/followers.hpp"
 #include "observe/geometry.hpp"
 #include "observe/observables.hpp"
+#include "observe/pressure.hpp"
 #include "observe/saved_observable.hpp"
 #include "observe/wall_momentum.hpp"
 #include "scene/contact_scales.hpp"
-
-#include <boost/math/special_functions/gamma.hpp>
 
 #include <algorithm>
 #include <array>
@@ -35,9 +34,6 @@ using carom::serialize;
 
 constexpr const char* no_log = "the run kept no collisions (--events)";
 
-/// Returns c above; 1 for many.
-double speed_factor(double d) { return d > 0.0 ? std::sqrt(0.5 * d) * boost::math::tgamma_delta_ratio(0.5 * d, 0.5) : 1.0; }
-
 class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
  public:
   Pressure(const ObservableRequest& request, const ObservedRun& run) : SavedObservable(request, run) {
@@ -46,8 +42,7 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
     equal_ = all_equal(run.disks.radius) && all_equal(run.disks.mass) &&
              contact_scales<double>(run.scene.effects, run.disks).additive();
     equal_radii_ = all_equal(run.disks.radius);
-    freedom_ = 2.0 * static_cast<double>(run.disks.count()) - (run.centre_of_mass_is_thermal(0) ? 0.0 : 1.0) -
-               (run.centre_of_mass_is_thermal(1) ? 0.0 : 1.0);
+    freedom_ = run.degrees_of_freedom();
     why_no_Z_ = carom::why_no_Z(run.scene);
     has_Z_walls_ = why_no_walls().empty();
   }
@@ -140,7 +135,7 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
     const double met =
         equal_ ? static_cast<double>(now.pairs - before_.pairs) * 2.0 * run_.disks.radius[0] * std::sqrt(0.5 * run_.disks.mass[0])
                : now.meetings - before_.meetings;
-    rate_.add(std::numbers::pi * met, count * dt * std::sqrt(2.0 * std::numbers::pi) * thermal * speed_factor(freedom_));
+    rate_.add(std::numbers::pi * met, count * dt * std::sqrt(2.0 * std::numbers::pi) * thermal * mean_speed_factor(freedom_));
     double push = (now.circle - before_.circle) * (0.5 * run_.scene.box.lengths().x() - run_.disks.radius[0]);
     for (int axis = 0; axis < 2; ++axis) {
       const std::size_t low = 2 * static_cast<std::size_t>(axis);

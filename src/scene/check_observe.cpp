@@ -82,8 +82,8 @@ void check_settings(const ObservableRequest& request, bool is_circle) {
 
 void check_disks(const Scene& scene, const ObservableRequest& request) {
   const std::int64_t least = request.name == "hexatic" ? 7
-                             : one_of(request.name, {"collision_rate", "free_flight", "radial_distribution", "structure_factor",
-                                                     "viscosity", "heat_conductivity"})
+                             : one_of(request.name, {"collision_rate", "contact_values", "free_flight", "radial_distribution",
+                                                     "structure_factor", "viscosity", "heat_conductivity"})
                                  ? 2
                                  : 1;
   if (scene.disk_count() >= least) return;
@@ -92,7 +92,7 @@ void check_disks(const Scene& scene, const ObservableRequest& request) {
 }
 
 void check_collisions(const Scene& scene, const ObservableRequest& request) {
-  if (!one_of(request.name, {"free_flight", "viscosity", "heat_conductivity", "fields"})) return;
+  if (!one_of(request.name, {"contact_values", "free_flight", "viscosity", "heat_conductivity", "fields"})) return;
   for (const EffectTraits& effect : all_effects())
     if (effect.changes_velocities_in_flight && effect.acts(scene.effects))
       refuse_observable(request, fmt::format("follows disks from collision to collision, and {} changes their velocities in "
@@ -119,7 +119,8 @@ void check_wave_number(const Scene& scene, const ObservableRequest& request) {
 }
 
 void check_structure(const Scene& scene, const ObservableRequest& request) {
-  if (!one_of(request.name, {"radial_distribution", "structure_factor", "hexatic", "intermediate_scattering"})) return;
+  if (!one_of(request.name, {"contact_values", "radial_distribution", "structure_factor", "hexatic", "intermediate_scattering"}))
+    return;
   if (!scene.box.periodic(0) || !scene.box.periodic(1))
     refuse_observable(request,
                       "is that of a uniform system, and walls disturb it; take boundary = \"periodic\", or observe "

@@ -32,10 +32,11 @@ inline constexpr int radial_axis = 2;
 inline constexpr std::array<std::string_view, 3> axis_words = {"x", "y", "radius"};
 
 /// All observables, in the order of docs/scene-format.md, which is that of all results.
-inline constexpr std::array<KnownObservable, 24> known_observables = {{
+inline constexpr std::array<KnownObservable, 25> known_observables = {{
     {.name = "temperature", .example = "temperature = true", .step = 4.0},
     {.name = "pressure", .example = "pressure = true", .step = 16.0},
     {.name = "collision_rate", .example = "collision_rate = true", .step = 16.0},
+    {.name = "contact_values", .example = "contact_values = true", .step = 16.0},
     {.name = "free_flight", .example = "free_flight = { bins = 100 }", .bins = 100},
     {.name = "speeds", .example = "speeds = { bins = 100 }", .step = 4.0, .bins = 100},
     {.name = "velocity_moments", .example = "velocity_moments = true", .step = 4.0},

@@ -19,7 +19,7 @@ FORBIDDEN = {
     "thermostat": {"drag"},
 }
 OBSERVABLES = (
-    "temperature", "pressure", "velocity_moments", "h_function", "collision_rate", "free_flight", "speeds", "radial_distribution", "structure_factor",
+    "temperature", "pressure", "velocity_moments", "h_function", "collision_rate", "contact_values", "free_flight", "speeds", "radial_distribution", "structure_factor",
     "hexatic", "voronoi", "clusters", "density_profile", "fields", "mean_square_displacement", "intermediate_scattering", "overlap", "non_gaussian", "van_hove", "velocity_autocorrelation", "viscosity", "heat_conductivity", "wall_fluxes",
 )
 HOSTILE = (
@@ -460,6 +460,8 @@ def can_be_observed(name, scene, walled, gas):
         return False
     if name == "free_flight":
         return not {"thermostat", "growth", "shear", "drag"} & set(tables)
+    if name == "contact_values":
+        return not any(walled) and not {"thermostat", "growth", "shear", "drag"} & set(tables)
     if name in ("radial_distribution", "structure_factor", "hexatic", "intermediate_scattering"):
         return not any(walled) and not {"shear", "growth"} & set(tables)
     if name in ("mean_square_displacement", "velocity_autocorrelation", "overlap", "non_gaussian", "van_hove", "clusters"):

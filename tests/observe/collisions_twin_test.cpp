@@ -148,6 +148,87 @@ TEST(ObservedPressure, TracesOfAMixtureBetweenWallsAgree) {
   EXPECT_FALSE(o.scalar("pressure", "Z_walls").note.empty());
 }
 
+/// Three species without walls: one of many sizes, whose unlike disks come nearer than their circles, and one of a single disk.
+std::string periodic_mixture(const std::string& observe, const std::string& rule) {
+  return "[box]\nx = [0.0, 9.0]\ny = [0.0, 7.0]\nboundary = \"periodic\"\n[[disks]]\nname = \"big\"\ncount = 12\nradius = { "
+         "uniform = [0.4, 0.6] }\nmass = { per_area = 2.0 }\npositions = \"random\"\nvelocities = { temperature = 1.0 "
+         "}\n[[disks]]\nname = \"small\"\ncount = 20\nradius = 0.3\nmass = 0.5\npositions = \"random\"\nvelocities = { "
+         "temperature = 1.0 }\n[[disks]]\nname = \"lone\"\ncount = 1\nradius = 0.5\nmass = 1.0\npositions = "
+         "\"random\"\nvelocities = { temperature = 1.0 }\n[non_additivity]\ndelta = 0.0\npairs = [{ species = [0, 1], delta = "
+         "-0.2 "
+         "}]\n[collision]\nrule = \"" +
+         rule + "\"\n[run]\ntime = 10.0\n[observe]\n" + observe + "\n";
+}
+
+class ObservedContactValues : public ::testing::TestWithParam<const char*> {};
+
+/// What the pairs of two species have transferred, over what they would at g = 1.
+TEST_P(ObservedContactValues, AreSumsOverTheCollisionsOfEachPairOfSpecies) {
+  const std::string rule = GetParam();
+  const Observed o = observe(parse_scene(periodic_mixture("contact_values = { every = 0.1 }", rule)), 0.1);
+  const Disks& disks = o.disks;
+  const auto species = [&](std::size_t i) { return static_cast<std::size_t>(disks.species[i]); };
+  const auto distance = [&](std::size_t i, std::size_t j) {
+    return (species(i) + species(j) == 1 ? 0.8 : 1.0) * (disks.radius[i] + disks.radius[j]);
+  };
+  struct Sums {
+    double squares = 0.0, virial = 0.0, meetings = 0.0;
+  };
+  std::array<std::array<Sums, 3>, 3> sums{};
+  for (std::size_t i = 0; i < disks.count(); ++i)
+    for (std::size_t j = i + 1; j < disks.count(); ++j) sums[species(i)][species(j)].squares += std::pow(distance(i, j), 2);
+  replay(o, [&](const Event& event, const Eigen::Vector2d& before, const Eigen::Vector2d&, const Eigen::Vector2d& r) {
+    const auto i = static_cast<std::size_t>(event.disk), j = static_cast<std::size_t>(event.partner);
+    Sums& pair = sums[std::min(species(i), species(j))][std::max(species(i), species(j))];
+    pair.virial += disks.mass[i] * r.dot(event.velocity - before);
+    pair.meetings += distance(i, j) * std::sqrt(disks.mass[i] * disks.mass[j] / (disks.mass[i] + disks.mass[j]));
+  });
+  const double kT = kinetic_temperature(o.scene.box, disks, o.record.states.front());
+  const double d = 64.0;  // 2 N - 2 degrees of freedom
+  const double fixed_energy = std::sqrt(d / 2.0) * std::tgamma(d / 2.0) / std::tgamma((d + 1.0) / 2.0);
+  static constexpr std::array<const char*, 3> names = {"_big", "_small", "_lone"};
+  for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t b = a; b < 3; ++b) {
+      const std::string pair = std::string(names[a]) + names[b];
+      const Sums& sum = sums[a][b];
+      if (a == 2) {
+        EXPECT_FALSE(o.scalar("contact_values", "g" + pair).value);
+        EXPECT_THAT(o.scalar("contact_values", "g" + pair).note, testing::HasSubstr("no such pair"));
+        continue;
+      }
+      const double each = sum.squares * 10.0 / o.scene.box.area();
+      EXPECT_GT(sum.virial, 0.0) << pair;
+      EXPECT_NEAR(o.value("contact_values", "g" + pair), sum.virial / (2.0 * std::numbers::pi * kT * each),
+                  100.0 * rounding_of_transfers)
+          << pair;
+      EXPECT_NEAR(o.value("contact_values", "Z_share" + pair), sum.virial / (2.0 * 33.0 * kT * 10.0),
+                  100.0 * rounding_of_transfers)
+          << pair;
+      if (rule == "specular")
+        EXPECT_NEAR(o.value("contact_values", "g_rate" + pair),
+                    sum.meetings / (std::sqrt(2.0 * std::numbers::pi * kT) * fixed_energy * each), 100.0 * rounding_of_transfers)
+            << pair;
+      else
+        EXPECT_FALSE(o.scalar("contact_values", "g_rate" + pair).value);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Rules, ObservedContactValues, ::testing::Values("specular", "reversal"));
+
+/// Shares of Z - 1 add up to it; with wells, what passes at their edges is in the shares, and not in the contact values.
+TEST(ObservedSharesOfZ, AddUpToThatOfThePressure) {
+  const std::string both = "contact_values = { every = 0.1 }\npressure = { every = 0.1 }";
+  const Observed mixture = observe(parse_scene(periodic_mixture(both, "specular")), 0.1);
+  double sum = 1.0;
+  for (const Scalar& scalar : mixture.of("contact_values").scalars)
+    if (scalar.name.starts_with("Z_share")) sum += scalar.value.value_or(0.0);
+  EXPECT_NEAR(sum, mixture.value("pressure", "Z"), 100.0 * rounding_of_transfers);
+  const Observed wells = observe(parse_scene(small_fluid(both) + "[square_well]\nwidth = 1.5\ndepth = 0.5\n"), 0.1);
+  EXPECT_NEAR(1.0 + wells.value("contact_values", "Z_share"), wells.value("pressure", "Z"), 100.0 * rounding_of_transfers);
+  const double of_contacts = 2.0 * 0.4 * 39.0 / 40.0 * wells.value("contact_values", "g");
+  EXPECT_GT(of_contacts, wells.value("contact_values", "Z_share") + 0.1) << "wells pull";
+}
+
 TEST(ObservedRates, CountCollisionsByPairsOfSpecies) {
   const Observed o = observe(parse_scene(small_mixture("collision_rate = { every = 0.1 }")), 0.1);
   std::array<std::array<double, 2>, 2> counts{};

@@ -2,6 +2,7 @@
 // contacts.
 
 #include "support/contact_sums.hpp"
+#include "support/lens_area.hpp"
 
 #include <carom/scene.hpp>
 
@@ -33,14 +34,6 @@ Scene binary(double delta, double packing_fraction, int disks, int pair_collisio
                   std::sqrt(disks / 2 * pi * (0.25 + 0.16) / packing_fraction), disks / 2, delta, pair_collisions));
 }
 
-/// The area common to two circles of radii a and b whose centres are d apart.
-double lens(double a, double b, double d) {
-  if (d >= a + b) return 0.0;
-  if (d <= std::abs(a - b)) return pi * std::min(a, b) * std::min(a, b);
-  const double x = (d * d + a * a - b * b) / (2.0 * d), y = (d * d + b * b - a * a) / (2.0 * d);
-  return a * a * std::acos(x / a) + b * b * std::acos(y / b) - d * std::sqrt(a * a - x * x);
-}
-
 /// The third virial coefficient of three disks with these contact distances. Mayer's functions are -1 up to contact and 0 beyond,
 /// so B_3 = 1/3 of the integral, over all separations of the first two up to contact, of the area in which the third overlaps
 /// both (Hansen & McDonald, Theory of Simple Liquids, section 3.9). By the midpoint rule; the integrand has kinks, and the error
@@ -50,7 +43,7 @@ double third_virial(double ij, double ik, double jk) {
   double sum = 0.0;
   for (int k = 0; k < steps; ++k) {
     const double r = ij * (k + 0.5) / steps;
-    sum += 2.0 * pi * r * lens(ik, jk, r);
+    sum += 2.0 * pi * r * lens_area(ik, jk, r);
   }
   return sum * ij / steps / 3.0;
 }

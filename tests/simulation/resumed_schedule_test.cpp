@@ -40,6 +40,7 @@ equilibrate = { collisions_per_disk = 300 }
 temperature = true
 pressure = true
 collision_rate = true
+contact_values = true
 free_flight = true
 speeds = true
 velocity_moments = true

@@ -72,6 +72,7 @@ const std::string of_structure =
 const std::string of_motion =
     "mean_square_displacement = { every = 0.1 }\noverlap = { every = 0.1 }\nnon_gaussian = { every = 0.2 }\nvan_hove = { every = "
     "0.2 }\nvelocity_autocorrelation = { every = 0.3 }\n";
+const std::string of_contacts = "contact_values = { every = 0.3 }\n";
 const std::string of_collisions = "free_flight = true\nviscosity = { every = 0.07 }\nheat_conductivity = true\n";
 
 struct Kept {
@@ -89,7 +90,7 @@ std::vector<Kept> kept_runs() {
   const std::string fluid = fluid_of_one_kind + specular, mixture = mixture_between_walls + specular;
   const auto observing = [](const std::string& what) { return "[observe]\n" + what; };
   return {
-      {"fluid", fluid + observing(of_states + of_structure + of_motion + of_collisions)},
+      {"fluid", fluid + observing(of_states + of_structure + of_motion + of_contacts + of_collisions)},
       {"equilibrated", fluid + observing(of_states + of_motion + of_collisions),
        "time = 12.0\nsample_every = 0.1\nequilibrate = { collisions_per_disk = 3 }\n"},
       {"ends_by_collisions", fluid + observing(of_states + of_motion + of_collisions), "collisions = 1777\nsample_every = 0.1\n"},
@@ -111,8 +112,10 @@ std::vector<Kept> kept_runs() {
            observing("temperature = { every = 0.1 }\npressure = { every = 0.3 }\nwall_fluxes = { every = 0.3 }\n")},
       {"thermostat", fluid + "[thermostat]\ntemperature = 1.0\nrate = 0.5\n" + observing(of_states + of_structure + of_motion)},
       {"growth", fluid + "[growth]\nrate = 0.005\n" + observing("temperature = { every = 0.1 }\npressure = { every = 0.3 }\n")},
-      {"shear", fluid + "[shear]\nrate = 0.1\n" + observing("temperature = { every = 0.1 }\npressure = { every = 0.3 }\n")},
-      {"well", fluid + "[square_well]\nwidth = 1.5\ndepth = 0.5\n" + observing(of_states + of_motion + "free_flight = true\n")},
+      {"shear", fluid + "[shear]\nrate = 0.1\n" +
+                    observing("temperature = { every = 0.1 }\npressure = { every = 0.3 }\nvoronoi = { every = 1.0 }\n")},
+      {"well", fluid + "[square_well]\nwidth = 1.5\ndepth = 0.5\n" +
+                   observing(of_states + of_motion + of_contacts + "free_flight = true\n")},
       {"obstacle", mixture + "[[obstacles]]\nsegment = { from = [2.0, 1.0], to = [2.0, 2.0] }\n" +
                        observing(of_states + of_motion + "free_flight = true\n")},
   };
