@@ -94,7 +94,8 @@ TEST(BenchCommand, ShowsWhatEveryEffectCosts) {
       EXPECT_THAT(outcome.out, ContainsRegex(std::string("\\| ") + box + " \\| " + fraction + " +\\| all neutral together +\\|"));
     }
   }
-  for (const char* effect : {"restitution", "roughness", "gravity", "thermal wall", "obstacles", "growth", "square_well"})
+  for (const char* effect : {"restitution", "roughness", "gravity", "thermal wall", "obstacles", "growth", "square_well",
+                             "stepped_potential", "non_additivity"})
     EXPECT_THAT(outcome.out, HasSubstr(std::string("| ") + effect + " "));
 }
 

@@ -17,6 +17,7 @@
 #include <cstdio>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace carom::cli {
@@ -44,6 +45,29 @@ Ratio ratio_of(const Contender& lean, const Contender& other) {
   for (std::size_t turn = 0; turn < lean.rates().size(); ++turn) ratios.push_back(lean.rates()[turn] / other.rates()[turn]);
   std::sort(ratios.begin(), ratios.end());
   return {ratios[ratios.size() / 2], ratios.front(), ratios.back()};
+}
+
+/// Returns the gas as one of two species of equal disks, which begins as the gas does: what acts between species has some to act
+/// on, and nothing else knows of them.
+Scene of_two_species(Scene gas) {
+  const State start = make_simulation(gas, "fast").state();
+  std::vector<Species> halves;
+  for (Eigen::Index begin = 0; const Eigen::Index end : {start.positions.cols() / 2, start.positions.cols()}) {
+    Species& half = halves.emplace_back(gas.species.front());
+    half.name = halves.size() == 1 ? "one half" : "other half";
+    half.count = end - begin;
+    ListedPositions positions;
+    ListedVelocities velocities;
+    for (Eigen::Index i = begin; i < end; ++i) {
+      positions.values.emplace_back(start.positions.col(i));
+      velocities.values.emplace_back(start.velocities.col(i));
+    }
+    half.positions = positions;
+    half.velocities = velocities;
+    begin = end;
+  }
+  gas.species = halves;
+  return gas;
 }
 
 /// The lean engine, the general one with the effect at its neutral value, and with the effect acting.
@@ -85,30 +109,8 @@ class Race {
 
  private:
   static Scene with(Scene gas, const Effects& effects) {
-    if (effects.non_additivity) gas.species = halves_of(gas);
     gas.effects = effects;
     return gas;
-  }
-
-  /// Returns the disks of the gas as two species that begin as the gas does.
-  static std::vector<Species> halves_of(const Scene& gas) {
-    const State start = make_simulation(gas, "fast").state();
-    std::vector<Species> halves;
-    for (Eigen::Index begin = 0; const Eigen::Index end : {start.positions.cols() / 2, start.positions.cols()}) {
-      Species& half = halves.emplace_back(gas.species.front());
-      half.name = halves.size() == 1 ? "one half" : "other half";
-      half.count = end - begin;
-      ListedPositions positions;
-      ListedVelocities velocities;
-      for (Eigen::Index i = begin; i < end; ++i) {
-        positions.values.emplace_back(start.positions.col(i));
-        velocities.values.emplace_back(start.velocities.col(i));
-      }
-      half.positions = positions;
-      half.velocities = velocities;
-      begin = end;
-    }
-    return halves;
   }
 
   static bool same_bits(const State& a, const State& b) {
@@ -201,6 +203,7 @@ ExitCode bench_effects(const BenchOptions& options) {
     for (const double packing_fraction : priced_packing_fractions) {
       Scene gas = bench_scene(disks, packing_fraction);
       if (walled) gas.box.boundary = {Boundary::walls, Boundary::walls};
+      gas = of_two_species(std::move(gas));
       for (const PricedEffect& effect : priced_effects(gas)) {
         status.show(fmt::format("packing fraction {}: {}", packing_fraction, effect.name));
         Race race(gas, effect, turn);

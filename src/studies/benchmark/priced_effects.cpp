@@ -80,6 +80,13 @@ std::string mild_values(const detail::EffectTraits& effect) {
   return text;
 }
 
+/// A shoulder and a well around it, of so much energy each.
+Effects with_steps(double energy) {
+  Effects effects;
+  effects.stepped_potential = SteppedPotential{{{.width = 1.2, .energy = energy}, {.width = 1.5, .energy = -energy}}};
+  return effects;
+}
+
 Collision restitution(double e, std::optional<double> elastic_below = {}) {
   Collision collision;
   collision.restitution = e;
@@ -135,6 +142,7 @@ std::vector<PricedEffect> priced_effects(const Scene& gas) {
     if (!effect.numbers.empty())
       all.push_back({std::string(effect.name), mild_values(effect), with(effect, &detail::EffectNumber::neutral),
                      with(effect, &detail::EffectNumber::mild)});
+  all.push_back({"stepped_potential", "0.1 kT to 1.2, -0.1 kT to 1.5", with_steps(0.0), with_steps(0.1)});
   all.push_back({"all neutral together", "", all_neutral(false), {}});
   return all;
 }
