@@ -30,6 +30,9 @@ std::string sweep_lines(hid_t file);
 /// Returns whether a table that begins with this line is sweep.csv or runs.csv.
 bool is_sweep_table(std::string_view heading);
 std::string describe_sweep_table(const std::filesystem::path& path);
+/// Returns whether a table that begins with this line is columns.csv.
+bool is_columns_of_sweep(std::string_view heading);
+std::string describe_columns_of_sweep(const std::filesystem::path& path);
 
 /// The products of a sweep that are about all its runs.
 inline constexpr std::string_view sweep_products[] = {"sweep.h5", "sweep.csv", "runs.csv"};

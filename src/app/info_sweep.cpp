@@ -66,6 +66,18 @@ std::string describe_sweep_table(const fs::path& path) {
   return text + info_line("rows", fmt::format("{}", rows));
 }
 
+bool is_columns_of_sweep(std::string_view heading) { return heading == "file,column,unit,meaning"; }
+
+std::string describe_columns_of_sweep(const fs::path& path) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  std::uint64_t rows = 0;
+  while (std::getline(file, line)) ++rows;
+  return fmt::format("{}: units and meanings of the columns of sweep.csv and runs.csv\n", path.string()) +
+         info_line("columns", fmt::format("{}", rows));
+}
+
 std::string describe_runs_of_sweep(const fs::path& path) {
   std::uintmax_t begun = 0, finished = 0;
   std::error_code error;

@@ -115,6 +115,7 @@ std::string describe_csv(const std::filesystem::path& path) {
   std::getline(file, line);
   if (line.starts_with("# averages over ")) return describe_observable_table(path, line, file);
   if (is_sweep_table(line)) return describe_sweep_table(path);
+  if (is_columns_of_sweep(line)) return describe_columns_of_sweep(path);
   const std::string heading = line;
   const bool rough = heading == "time,id,x,y,vx,vy,spin";
   if (heading != "time,id,x,y,vx,vy" && !rough)

@@ -40,7 +40,7 @@ class SweepCommand : public ProgramTest {
   /// What the sweep makes of its runs.
   [[nodiscard]] Bytes results() const {
     Bytes bytes;
-    for (const char* name : {"runs.csv", "sweep.csv", "sweep.h5", "report.html"})
+    for (const char* name : {"runs.csv", "sweep.csv", "columns.csv", "sweep.h5", "report.html"})
       bytes[name] = text_of(file(std::string("gas-sweep/") + name));
     return bytes;
   }
@@ -139,6 +139,9 @@ TEST_F(ScenesSweep, InfoTellsWhatASweepHasLeft) {
                                HasSubstr(" 3, of disks.0.radius\n"), HasSubstr(" 6, 6 finished\n"), HasSubstr("pressure.Z"),
                                HasSubstr("sweep.csv: table of a sweep, a row per point\n"),
                                HasSubstr("runs.csv: table of a sweep, a row per run\n"), Not(HasSubstr("incomplete"))));
+  const Outcome columns = carom({"info", "gas-sweep/columns.csv"});
+  EXPECT_EQ(columns.exit_code, 0) << columns.err;
+  EXPECT_THAT(columns.out, StartsWith("gas-sweep/columns.csv: units and meanings of the columns of sweep.csv and runs.csv\n"));
   const std::string bytes = text_of(file("gas-sweep/sweep.h5"));
   for (std::size_t size = 0; size < bytes.size(); size += bytes.size() / 16) {
     write_text(file("cut.h5"), bytes.substr(0, size));

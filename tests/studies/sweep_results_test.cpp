@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <map>
+#include <sstream>
 #include <string>
 #include <variant>
 #include <vector>
@@ -233,6 +235,39 @@ TEST_F(SweepResultsOf, NumbersOfListsAndErrorsOfObservablesHaveNames) {
   EXPECT_EQ(text,
             "momentum.final.0 1.000000\nmomentum.final.1 2.000000\nobservables.pressure.Z 3.000000\n"
             "observables.pressure.Z_error 0.500000\n");
+}
+
+std::vector<std::string> split_line(const std::string& line) {
+  std::vector<std::string> words;
+  std::istringstream text(line);
+  for (std::string word; std::getline(text, word, ',');) words.push_back(word);
+  return words;
+}
+
+TEST_F(SweepResultsOf, EveryColumnOfItsTablesHasAUnitAndAMeaning) {
+  Json with_temperature = summary(0, 1.0);
+  with_temperature["observables"] = {{"temperature", {{"kT", {{"value", 1.5}, {"error", 0.5}, {"unit", "energy"}}}}}};
+  put(0, with_temperature);
+  std::istringstream lines(columns_csv(sweep_, results()));
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "file,column,unit,meaning");
+  std::map<std::string, std::string> names, units;
+  while (std::getline(lines, line)) {
+    const std::vector<std::string> words = split_line(line);
+    ASSERT_EQ(words.size(), 4U) << line;
+    names[words[0]] += (names[words[0]].empty() ? "" : ",") + words[1];
+    units[words[1]] = words[2];
+  }
+  const auto heading_of = [](const std::string& table) { return table.substr(0, table.find('\n')); };
+  EXPECT_EQ(names.at("sweep.csv"), heading_of(points_csv(sweep_, results())));
+  EXPECT_EQ(names.at("runs.csv"), heading_of(runs_csv(sweep_, results())));
+  EXPECT_EQ(units.at("run.time"), "time");
+  EXPECT_EQ(units.at("box.boundary"), "");
+  EXPECT_EQ(units.at("pressure.Z_mean"), "");
+  EXPECT_EQ(units.at("observables.temperature.kT"), "energy");
+  EXPECT_EQ(units.at("observables.temperature.kT_mean"), "energy");
+  EXPECT_EQ(units.at("observables.temperature.kT_error"), "energy");
 }
 
 TEST_F(SweepResultsOf, TheHdf5FileHoldsTheSameAndHasTheSameBytesEveryTime) {

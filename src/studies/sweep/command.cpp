@@ -172,6 +172,7 @@ ExitCode sweep_scene(const SweepCommandOptions& options, const Invocation& invoc
     if (one.fault.empty())
       write_product(directory, (fs::path(sweep.points[one.point].name) / table_file(one.table)).string(), seed_table_csv(one));
   write_product(directory, "report.html", html_page(sweep_page(sweep, results, tables)));
+  write_product(directory, "columns.csv", columns_csv(sweep, results));
   write_product(directory, "sweep.csv", points_csv(sweep, results));
   if (options.json) fmt::print("{}\n", sweep_json(sweep, results));
   if (!options.quiet && !options.json) fmt::print("{}", sweep_text(sweep, results, path));

@@ -52,7 +52,8 @@ struct Sweep {
 };
 
 /// The files in a sweep's directory besides its points; no point may have one of these names.
-inline constexpr std::array<std::string_view, 4> sweep_products = {"runs.csv", "sweep.csv", "sweep.h5", "report.html"};
+inline constexpr std::array<std::string_view, 5> sweep_products = {"runs.csv", "sweep.csv", "columns.csv", "sweep.h5",
+                                                                   "report.html"};
 
 /// Returns the shortest endings that still tell dotted keys apart: "radius" for "disks.0.radius" where no other key ends so, else
 /// "0.radius" and "1.radius".

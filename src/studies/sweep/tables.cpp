@@ -92,6 +92,36 @@ std::string points_csv(const Sweep& sweep, const SweepResults& results) {
   return text;
 }
 
+std::string columns_csv(const Sweep& sweep, const SweepResults& results) {
+  std::string text;
+  put_line(text, {"file", "column", "unit", "meaning"});
+  const auto put = [&](const char* file, const std::string& column, const std::string& unit, const std::string& meaning) {
+    put_line(text, {file, csv_cell(column), csv_cell(unit), csv_cell(meaning)});
+  };
+  const auto put_beginning = [&](const char* file) {
+    put(file, "point", "", "name of the point");
+    for (const std::string& key : sweep.keys) put(file, key, unit_of_key(key), "key of the scene that is swept");
+  };
+  put_beginning("sweep.csv");
+  put("sweep.csv", "finished", "", "number of runs of the point that have finished");
+  put("sweep.csv", "failed", "", "number of runs of the point that have failed");
+  for (std::size_t k = 0; k < results.numbers.size(); ++k) {
+    const std::string& name = results.numbers[k];
+    put("sweep.csv", name + "_mean", results.units[k], fmt::format("mean of {} over the seeds", name));
+    put("sweep.csv", name + "_error", results.units[k], "standard error of that mean by the scatter of the seeds");
+  }
+  put_beginning("runs.csv");
+  put("runs.csv", "seed", "", "seed of the random numbers");
+  put("runs.csv", "directory", "", "directory of the run");
+  put("runs.csv", "state", "", "whether the run is finished or failed or missing");
+  put("runs.csv", "stopped", "", "why the run ended");
+  for (std::size_t k = 0; k < results.numbers.size(); ++k)
+    put("runs.csv", results.numbers[k], results.units[k],
+        table_number(results.numbers[k]) ? "number of a table of the run" : "number of summary.json");
+  put("runs.csv", "failure", "", "what is wrong with a run that has failed");
+  return text;
+}
+
 std::string sweep_json(const Sweep& sweep, const SweepResults& results) {
   using detail::Json;
   Json points = Json::array();
