@@ -4,6 +4,8 @@
 #include "observe/collision_fluxes.hpp"
 
 #include <carom/collisions.hpp>
+#include <carom/effects.hpp>
+#include <carom/state.hpp>
 
 #include <limits>
 
@@ -19,6 +21,16 @@ class FluxFollower {
   [[nodiscard]] virtual double until() const { return std::numeric_limits<double>::infinity(); }
   /// The next collision is at `time`, later than until().
   virtual void reach(double /*time*/) {}
+};
+
+/// Is called at each of the scene's changes and at the end of the run, which samples need not meet.
+class ChangeFollower {
+ public:
+  virtual ~ChangeFollower() = default;
+  /// Called just before (made = false) and just after (true) each change. `effects` are those that act then.
+  virtual void change(bool made, const Effects& effects, const State& state, const Totals& totals) = 0;
+  /// Called with the last state, before the results are asked for.
+  virtual void end(const State& state, const Totals& totals) = 0;
 };
 
 /// Reads the records of collisions in which disks touch.

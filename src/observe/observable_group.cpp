@@ -41,6 +41,7 @@ void ObservableGroup::add(MadeObservable made) {
     observable.load(gathered);
   }
   observables_.push_back(std::move(made.observable));
+  if (made.changes != nullptr) change_followers_.push_back(made.changes);
   if (!follows) return;
   if (made.fluxes != nullptr)
     meter_.add(*made.fluxes);
@@ -105,6 +106,15 @@ void ObservableGroup::follow(const CollisionRecords& collisions) {
   if (followers_.empty()) return;
   collisions.read(collisions_);
   for (Observable* observable : followers_) observable->collisions(collisions_);
+}
+
+void ObservableGroup::change(bool made, const Effects& effects, const State& state, const Totals& totals) {
+  for (ChangeFollower* follower : change_followers_) follower->change(made, effects, state, totals);
+}
+
+void ObservableGroup::end(const State& state, const Totals& totals) {
+  if (!started_) return;
+  for (ChangeFollower* follower : change_followers_) follower->end(state, totals);
 }
 
 /// Returns the collisions that are not at the edge of a well.

@@ -45,6 +45,12 @@ class ObservableGroup {
   /// Passes on the collisions among events. Requires events in order, none left out, and !run().has_collision_records. What comes
   /// of it does not depend on how they are divided among calls.
   void follow(std::span<const Event> events);
+  /// Returns whether change() and end() are to be called.
+  [[nodiscard]] bool follows_changes() const { return !change_followers_.empty(); }
+  /// Passes on a change of the scene, just before (made = false) and just after it, when all before it was passed on.
+  void change(bool made, const Effects& effects, const State& state, const Totals& totals);
+  /// Passes on the last state; to be called before results().
+  void end(const State& state, const Totals& totals);
   /// Passes on collisions, which come after all before.
   void follow(const CollisionRecords& collisions);
   /// One entry per observable; empty where start() was never called. Call it once.
@@ -62,6 +68,7 @@ class ObservableGroup {
   std::vector<std::unique_ptr<Observable>> observables_;
   std::vector<Observable*> followers_;  ///< observables of whole collisions
   std::vector<RecordFollower*> record_followers_;
+  std::vector<ChangeFollower*> change_followers_;
   std::optional<CollisionStream> stream_;  ///< where events are followed
   FluxMeter meter_;
   std::vector<PairCollision> collisions_;

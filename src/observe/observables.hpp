@@ -18,12 +18,14 @@ struct MadeObservable {
   MadeObservable(std::unique_ptr<Made> made) {  // NOLINT(google-explicit-constructor): what std::make_unique returns
     if constexpr (std::is_base_of_v<FluxFollower, Made>) fluxes = made.get();
     if constexpr (std::is_base_of_v<RecordFollower, Made>) records = made.get();
+    if constexpr (std::is_base_of_v<ChangeFollower, Made>) changes = made.get();
     observable = std::move(made);
   }
 
   std::unique_ptr<Observable> observable;
   FluxFollower* fluxes = nullptr;
   RecordFollower* records = nullptr;
+  ChangeFollower* changes = nullptr;
 };
 
 MadeObservable make_temperature(const ObservableRequest& request, const ObservedRun& run);

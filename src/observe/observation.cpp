@@ -81,6 +81,7 @@ class Observation::Driver {
 
   [[nodiscard]] std::vector<Measurement> results() {
     finish();
+    if (group_.follows_changes()) group_.end(simulation_.state(), simulation_.totals());
     return group_.results(simulation_.time(), simulation_.totals());
   }
 
@@ -121,6 +122,12 @@ class Observation::Driver {
       hooks.events = [&follower, next = std::move(hooks.events)](std::span<const Event> events) {
         follower.follow(events);
         if (next) next(events);
+      };
+    if (group_.follows_changes())
+      hooks.change = [this, next = std::move(hooks.change)](bool made) {
+        finish();  // all that came before it
+        group_.change(made, simulation_.scene().effects, simulation_.state(), simulation_.totals());
+        if (next) next(made);
       };
     steps_ = group_.by_step();
     for (const auto& [step, observables] : steps_) {

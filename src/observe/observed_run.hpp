@@ -14,6 +14,7 @@ namespace carom {
 struct ObservedRun {
   const Scene& scene;
   const Disks& disks;
+  const Effects* acting = nullptr;     ///< effects that act when observables are made; `scene` has those of all of its changes
   std::optional<double> time = {};     ///< end of the run as planned when it began
   double temperature = 0.0;            ///< kT at the start, or of the bath
   double mean_diameter = 1.0;          ///< 1 without disks

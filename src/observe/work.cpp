@@ -1,11 +1,13 @@
 // Work and heat that the disks have been given since the start, against time: work by each wall that moves, slides or vibrates,
-// by a field, by shear and by growing; heat by each thermal wall and by baths, and what collisions and walls dissipate, as
-// negative heat. The sum of all is the energy that disks have gained.
+// by a field, by shear, by growing and by the changes of the scene; heat by each thermal wall and by baths, and what drag,
+// collisions and walls dissipate, as negative heat. The sum of all is the energy that disks have gained: of motion, of spin and
+// of pairs in wells or steps.
 //
 // A wall gives -E, E the energy that it has received in Totals. What of it is work follows from the momentum that the wall has
 // received, outward J and along itself S: work = -(J u + S s) for a wall that moves outward at u and slides at s; the rest is
-// heat. A piston does work alone. The numbers at the end are sums, not means, and have no errors: a run has one of them, and the
-// seeds of a sweep give their distribution. ThinnedRows keeps them against time.
+// heat. A piston does work alone. No engine sums what drag takes, and what growing rough disks gain with their moments of
+// inertia: it is the energy gained that no other part explains. The numbers at the end are sums, not means, and have no errors: a
+// run has one of them, and the seeds of a sweep give their distribution. ThinnedRows keeps them against time.
 
 #include "observe/energy.hpp"
 #include "observe/observables.hpp"
@@ -16,6 +18,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,9 +26,9 @@ namespace carom {
 
 namespace {
 
-class Work final : public SavedObservable<Work> {
+class Work final : public SavedObservable<Work>, public ChangeFollower {
  public:
-  Work(const ObservableRequest& request, const ObservedRun& run) : SavedObservable(request, run) {
+  Work(const ObservableRequest& request, const ObservedRun& run) : SavedObservable(request, run), acting_(*run.acting) {
     const Effects& effects = run.scene.effects;
     for (std::size_t side = 0; side < 4; ++side) {
       if (run.scene.box.periodic(axis_of_wall(side))) continue;
@@ -37,29 +40,52 @@ class Work final : public SavedObservable<Work> {
     if (falls()) list(work, "work_field", of_field);
     if (effects.growth) list(work, "work_growth", of_growth);
     if (effects.shear) list(work, "work_shear", of_shear);
+    if (!run.scene.changes.empty()) list(work, "work_changes", of_changes);
     if (effects.thermostat || effects.brownian) list(heat, "heat_bath", of_bath);
     if (effects.collision.restitution || effects.collision.roughness) list(heat, "heat_collisions", of_collisions);
+    if (effects.drag) list(heat, "heat_drag", of_drag);
+    if (effects.drag)
+      rest_ = of_drag;
+    else if (effects.growth && effects.collision.roughness)
+      rest_ = of_growth;
     rows_ = ThinnedRows(parts_.size() + 2);
   }
 
-  [[nodiscard]] bool needs_positions() const override { return falls(); }
+  [[nodiscard]] bool needs_positions() const override { return falls() || rest_; }
 
   void start(const State& state) override {
-    if (falls()) potential_ = potential(state);
+    potential_ = potential(state);
+    energy_ = energy(state);
+    look_at_walls(state);
   }
 
   void sample(const State& state, const Totals& totals) override {
-    if (falls()) sums_[of_field] = potential_ - potential(state);
-    add(totals);
-    for (std::size_t side = 0; side < 4; ++side) velocity_[side] = state.walls.size() == 4 ? state.walls[side].velocity : 0.0;
+    add(state, totals);
+    look_at_walls(state);
     if (!rows_.takes_next()) return;
     std::vector<double> row = {total(work), total(heat)};
     for (const Part& part : parts_) row.push_back(sums_[part.at]);
     rows_.add(state.time, row);
   }
 
-  [[nodiscard]] Measurement finish(double, const Totals& totals) override {
-    add(totals);
+  /// The energy of a change is work done by it. That of heights in a field is none of the disks' own: a field that begins does
+  /// work from then on.
+  void change(bool made, const Effects& effects, const State& state, const Totals& totals) override {
+    if (!made) {
+      add(state, totals);
+      field_before_ = sums_[of_field];
+      sums_[of_changes] -= energy(state);
+      return;
+    }
+    acting_ = effects;
+    sums_[of_changes] += energy(state);
+    potential_ = potential(state);
+    look_at_walls(state);
+  }
+
+  void end(const State& state, const Totals& totals) override { add(state, totals); }
+
+  [[nodiscard]] Measurement finish(double, const Totals&) override {
     Measurement found{.name = name()};
     const auto put_sum = [&](std::string of, double value) {
       found.scalars.push_back({.name = std::move(of), .unit = "energy", .value = value});
@@ -77,14 +103,14 @@ class Work final : public SavedObservable<Work> {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(potential_, sums_, velocity_, energies_, impulses_, shears_, rows_);
+    archive(potential_, field_before_, energy_, sums_, velocity_, energies_, impulses_, shears_, rows_);
   }
 
  private:
   enum Kind : std::uint8_t { work, heat };
   /// Places in sums_.
   static constexpr std::size_t work_of_left = 0, heat_of_left = 4, of_field = 8, of_growth = 9, of_shear = 10, of_bath = 11,
-                               of_collisions = 12, places = 13;
+                               of_collisions = 12, of_changes = 13, of_drag = 14, places = 15;
   struct Part {
     Kind kind;
     std::string name;
@@ -101,14 +127,32 @@ class Work final : public SavedObservable<Work> {
     return sum;
   }
 
+  /// Returns the energy of heights in the field that acts now; 0 without one.
   [[nodiscard]] double potential(const State& state) const {
-    return gravitational_energy(run_.scene.box, run_.scene.effects, run_.disks, state);
+    return acting_.gravity ? gravitational_energy(run_.scene.box, acting_, run_.disks, state) : 0.0;
+  }
+  /// Returns the energy of the disks themselves. Requires a state with positions, or smooth disks without wells.
+  [[nodiscard]] double energy(const State& state) const {
+    const Energies all = energies_of(run_.scene.box, without_field(), run_.disks, state);
+    return all.kinetic + all.spin + all.potential;
+  }
+  /// Returns the effects that give pairs an energy.
+  [[nodiscard]] Effects without_field() const {
+    Effects pairs;
+    pairs.square_well = acting_.square_well;
+    pairs.stepped_potential = acting_.stepped_potential;
+    return pairs;
+  }
+
+  void look_at_walls(const State& state) {
+    for (std::size_t side = 0; side < 4; ++side) velocity_[side] = state.walls.size() == 4 ? state.walls[side].velocity : 0.0;
   }
 
   /// Adds what has happened since the totals of before, at the velocities that walls had then.
-  void add(const Totals& totals) {
+  void add(const State& state, const Totals& totals) {
+    if (acting_.gravity) sums_[of_field] = field_before_ + (potential_ - potential(state));
     for (std::size_t side = 0; side < 4; ++side) {
-      const WallProperties& wall = run_.scene.effects.walls[side];
+      const WallProperties& wall = acting_.walls[side];
       const double given = energies_[side] - totals.wall_energy[side];
       double by_motion = given;
       if (wall.temperature || wall.restitution) {
@@ -126,10 +170,17 @@ class Work final : public SavedObservable<Work> {
     energies_ = totals.wall_energy;
     impulses_ = totals.wall_impulse;
     shears_ = totals.wall_shear;
+    if (!rest_) return;
+    sums_[*rest_] = 0.0;
+    sums_[*rest_] = energy(state) - energy_ - total(work) - total(heat);
   }
 
   std::vector<Part> parts_;
-  double potential_ = 0.0;  ///< at the start
+  Effects acting_;
+  std::optional<std::size_t> rest_ = {};  ///< place of the part that is known from the energy gained alone
+  double potential_ = 0.0;                ///< at the start, or after the last change
+  double field_before_ = 0.0;             ///< work of fields before the last change
+  double energy_ = 0.0;                   ///< of the disks at the start
   std::array<double, places> sums_{};
   std::array<double, 4> velocity_{};                          ///< of walls at the last sample
   std::array<double, 4> energies_{}, impulses_{}, shears_{};  ///< at the last sample

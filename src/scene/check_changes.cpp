@@ -88,18 +88,6 @@ bool contact_distances_differ(const Scene& scene, const Effects& now, const Effe
 /// Observables know one flow and one clock.
 void check_observables(const Scene& scene, const Effects& now, const Effects& before, const std::string& path) {
   if (scene.observe.empty()) return;
-  const auto slides_otherwise = [&](std::size_t w) {
-    const WallProperties &one = now.walls[w], &other = before.walls[w];
-    return one.tangential_velocity.value_or(0.0) != other.tangential_velocity.value_or(0.0) ||
-           one.vibration.value_or(0.0) != other.vibration.value_or(0.0);
-  };
-  const bool slides = slides_otherwise(0) || slides_otherwise(1) || slides_otherwise(2) || slides_otherwise(3);
-  if ((slides || now.acceleration() != before.acceleration()) &&
-      std::ranges::any_of(scene.observe, [](const ObservableRequest& request) { return request.name == "work"; }))
-    throw Refusal(path,
-                  fmt::format("{} changes gravity, or how a wall slides or vibrates, and observe.work knows one value of each "
-                              "only; remove one of the two",
-                              path));
   if (contact_distances_differ(scene, now, before))
     throw Refusal(
         path, fmt::format("{} changes [non_additivity], and observables know one contact distance of two species only; remove "

@@ -10,7 +10,10 @@
 
 #include <cmath>
 #include <map>
+#include <optional>
+#include <sstream>
 #include <string>
+#include <vector>
 
 namespace carom::test {
 namespace {
@@ -18,17 +21,28 @@ namespace {
 struct Observed {
   std::map<std::string, double> numbers;
   std::vector<Table> tables;
-  double gained = 0.0;  ///< kinetic energy
+  double gained = 0.0;  ///< energy of motion, of spin, and of pairs in wells
   Totals totals;
 };
 
-Observed observed(const std::string& effects, const std::string& boundary = "\"walls\"") {
+/// Returns the energy of disks of mass 2 and radius 0.4.
+double energy_of_disks(const Simulation& simulation) {
+  const State state = simulation.state();
+  double energy = state.velocities.squaredNorm();
+  energy += 0.25 * 2.0 * std::pow(0.4 * state.scale, 2) * state.spins.squaredNorm();
+  if (const std::optional<SquareWell>& well = simulation.scene().effects.square_well)
+    energy -= well->depth * static_cast<double>(state.bonds);
+  return energy;
+}
+
+Observed observed(const std::string& effects, const std::string& boundary = "\"walls\"", const std::string& run = "time = 8",
+                  const std::string& every = "{ every = 0.125 }") {
   const Scene scene = parse_scene("[box]\nx = [0, 20]\ny = [0, 10]\nboundary = " + boundary +
                                   "\n[[disks]]\ncount = 30\nradius = 0.4\nmass = 2\npositions = \"random\"\n"
-                                  "velocities = { temperature = 1 }\n[run]\ntime = 8\n[observe]\nwork = { every = 0.125 }\n" +
-                                  effects);
+                                  "velocities = { temperature = 1 }\n[run]\n" +
+                                  run + "\n[observe]\nwork = " + every + "\n" + effects);
   Simulation simulation = make_simulation(scene);
-  const double before = simulation.state().velocities.squaredNorm();
+  const double before = energy_of_disks(simulation);
   Observation observation(simulation);
   RunHooks hooks;
   observation.attach(hooks);
@@ -38,7 +52,7 @@ Observed observed(const std::string& effects, const std::string& boundary = "\"w
     for (const Scalar& scalar : one.scalars) found.numbers[scalar.name] = scalar.value.value();
     found.tables = one.tables;
   }
-  found.gained = simulation.state().velocities.squaredNorm() - before;  // m / 2 = 1
+  found.gained = energy_of_disks(simulation) - before;
   found.totals = simulation.totals();
   return found;
 }
@@ -84,7 +98,107 @@ TEST(Work, OfOtherEffectsAddsUpToo) {
                "= 0.8 }\n"));
   expect_sum(observed(specular + "[thermostat]\ntemperature = 2\nrate = 0.5\n"));
   expect_sum(observed(specular + "[brownian]\ntemperature = 2\nrate = 0.5\n"));
+  expect_sum(observed("[collision]\nrule = \"specular\"\nroughness = 0.5\n[growth]\nrate = 0.01\n"));
+  expect_sum(observed(specular + "[walls]\nright = { mass = 20.0, load = 0.5, restitution = 0.8 }\n"));
   expect_sum(observed(specular + "[shear]\nrate = 0.2\n", "\"periodic\""));
+}
+
+TEST(Work, IsThatOfTheEndWhereverTheRunEnds) {
+  const std::string gravity = specular + "[gravity]\nacceleration = [0.0, -1.0]\n";
+  const Observed between = observed(gravity, "\"walls\"", "time = 8", "{ every = 0.7 }");
+  expect_sum(between);
+  EXPECT_NEAR(between.numbers.at("work_field"), between.gained, 1e-10);
+  expect_sum(observed(gravity, "\"walls\"", "collisions = 101", "true"));
+  expect_sum(observed(gravity + "[walls]\nright = { temperature = 2.0, velocity = -0.25 }\n", "\"walls\"", "time = 7.3",
+                      "{ every = 1.5 }"));
+}
+
+TEST(Work, OfARunThatIsResumedIsThatOfTheWholeRun) {
+  const auto scene = [](const std::string& time) {
+    return parse_scene(
+        "[box]\nx = [0, 20]\ny = [0, 10]\nboundary = \"walls\"\n[[disks]]\ncount = 30\nradius = 0.4\nmass = 2\n"
+        "positions = \"random\"\nvelocities = { temperature = 1 }\n[run]\ntime = " +
+        time +
+        "\n[observe]\nwork = { every = 0.7 }\n[collision]\nrule = \"specular\"\n[gravity]\nacceleration = [0, -1]\n"
+        "[[changes]]\ntime = 1.0\nset = [\"gravity.acceleration=[0.5, -2]\"]\n");
+  };
+  const auto work_of = [](const std::vector<Measurement>& measured) { return measured.at(0).scalars.at(0).value.value(); };
+  Simulation whole = make_simulation(scene("6"));
+  Observation of_whole(whole);
+  RunHooks hooks;
+  of_whole.attach(hooks);
+  (void)run_schedule(whole, hooks);
+
+  Simulation first = make_simulation(scene("2"));
+  std::stringstream of_simulation, of_schedule, of_observation;
+  Observation of_first(first);
+  RunHooks first_hooks;
+  of_first.attach(first_hooks);
+  first_hooks.checkpoint = [&](const SavingMoment& moment) {
+    if (!moment.ended) return;
+    first.save(of_simulation);
+    moment.save(of_schedule);
+    of_first.save(of_observation);
+  };
+  (void)run_schedule(first, first_hooks);
+  Scene longer = first.scene();
+  longer.run.time = 6.0;
+  Simulation rest = restore_simulation(longer, of_simulation);
+  Observation of_rest(rest, of_observation);
+  RunHooks rest_hooks;
+  of_rest.attach(rest_hooks);
+  rest_hooks.resume = &of_schedule;
+  (void)run_schedule(rest, rest_hooks);
+  EXPECT_NEAR(work_of(of_rest.results()), work_of(of_whole.results()), 1e-10);
+}
+
+TEST(Work, OfAChangeIsTheEnergyThatItGives) {
+  const Observed scaled = observed(specular + "[[changes]]\ntime = 3.3\nscale_velocities = 2.0\n");
+  expect_sum(scaled);
+  EXPECT_NEAR(scaled.numbers.at("work_changes"), scaled.gained, 1e-10);
+  EXPECT_GT(scaled.gained, 10.0);
+  const std::string well = specular + "[square_well]\nwidth = 1.5\ndepth = 0.5\n";
+  const Observed deepened = observed(well + "[[changes]]\ntime = 3.3\nset = [\"square_well.depth=3\"]\n");
+  expect_sum(deepened);
+  EXPECT_LT(deepened.numbers.at("work_changes"), -0.5);
+  expect_sum(observed(well + "[thermostat]\ntemperature = 2\nrate = 0.5\n"
+                             "[[changes]]\ntime = 3.3\nset = [\"thermostat.temperature=0.5\"]\n"));
+  expect_sum(observed("[collision]\nrule = \"specular\"\nroughness = 0.5\n[[changes]]\ntime = 3.3\nscale_velocities = 0.5\n"));
+}
+
+TEST(Work, OfChangedFieldsAndWallsIsThatOfEachStretch) {
+  const Observed field = observed(specular +
+                                  "[gravity]\nacceleration = [0.0, -1.0]\n[[changes]]\ntime = 3.3\nset = "
+                                  "[\"gravity.acceleration=[0.5, 2]\"]\n");
+  expect_sum(field);
+  EXPECT_EQ(field.numbers.at("work_changes"), 0.0) << "a field that begins does work from then on";
+  const Observed begun = observed(specular + "[[changes]]\ntime = 3.3\nset = [\"gravity.acceleration=[0, -1]\"]\n");
+  expect_sum(begun);
+  EXPECT_NEAR(begun.numbers.at("work_field"), begun.gained, 1e-10);
+  const Observed faster =
+      observed(specular +
+                   "[walls]\nright = { temperature = 1.0, velocity = -0.25, tangential_velocity = 0.5 }\n"
+                   "[[changes]]\ntime = 3.3\nset = [\"walls.right.velocity=-0.5\", \"walls.right.tangential_velocity=-1\"]\n",
+               "\"walls\"", "time = 6", "{ every = 1.0 }");
+  const Observed until =
+      observed(specular + "[walls]\nright = { temperature = 1.0, velocity = -0.25, tangential_velocity = 0.5 }\n", "\"walls\"",
+               "time = 3.3");
+  expect_sum(faster);
+  const auto impulse = faster.totals.wall_impulse[1] - until.totals.wall_impulse[1];
+  const auto shear = faster.totals.wall_shear[1] - until.totals.wall_shear[1];
+  EXPECT_NEAR(faster.numbers.at("work_right"), until.numbers.at("work_right") + 0.5 * impulse + shear, 1e-10);
+}
+
+TEST(Work, OfDragIsHeatThatDisksLose) {
+  const Observed slowed = observed(specular + "[drag]\nrate = 0.5\n", "\"periodic\"");
+  expect_sum(slowed);
+  EXPECT_EQ(slowed.numbers.at("work"), 0.0);
+  EXPECT_LT(slowed.gained, -10.0);
+  EXPECT_NEAR(slowed.numbers.at("heat_drag"), slowed.gained, 1e-10);
+  const Observed both = observed("[collision]\nrule = \"specular\"\nrestitution = 0.5\n[drag]\nrate = 0.1\n", "\"periodic\"");
+  expect_sum(both);
+  EXPECT_LT(both.numbers.at("heat_drag"), -1.0);
+  EXPECT_EQ(both.numbers.at("heat_collisions"), -both.totals.dissipated);
 }
 
 TEST(Work, HasARowForEachInstant) {
