@@ -35,9 +35,13 @@ class DensityProfile final : public SavedObservable<DensityProfile> {
 
   void sample(const State& state, const Totals&) override {
     std::vector<double> counts(kinds_ * bins_);
+    seen_ += run_.disks.count();
     for (std::size_t i = 0; i < run_.disks.count(); ++i) {
       const double bin = (place_of(state.positions.col(static_cast<Eigen::Index>(i))) - from_) / width_;
-      if (!(bin >= 0.0 && bin < static_cast<double>(bins_))) continue;  // beyond where a wall that moves began
+      if (!(bin >= 0.0 && bin < static_cast<double>(bins_))) {  // beyond where a wall that moves began
+        ++outside_;
+        continue;
+      }
       const auto at = static_cast<std::size_t>(bin);
       counts[at] += 1.0;
       if (kinds_ > 1) counts[(1 + static_cast<std::size_t>(run_.disks.species[i])) * bins_ + at] += 1.0;
@@ -56,14 +60,14 @@ class DensityProfile final : public SavedObservable<DensityProfile> {
     for (std::size_t kind = 0; kind < kinds_; ++kind)
       densities_[kind].put(table, kind == 0 ? "density" : "density" + run_.suffix(kind - 1), "1 / area",
                            areas_.empty() ? 1.0 / width_ : 1.0);
-    Measurement found{.name = name()};
+    Measurement found{.name = name(), .note = note_on_disks_outside(outside_, seen_)};
     found.tables.push_back(std::move(table));
     return found;
   }
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(densities_);
+    archive(densities_, seen_, outside_);
   }
 
  private:
@@ -90,6 +94,7 @@ class DensityProfile final : public SavedObservable<DensityProfile> {
   std::size_t kinds_;          ///< all, then each species where there are several
   std::vector<double> areas_;  ///< of each bin in a circular box; empty in others
   std::vector<BlockedColumn> densities_;
+  std::uint64_t seen_ = 0, outside_ = 0;  ///< disks at the samples, in all and in no bin
 };
 
 }  // namespace

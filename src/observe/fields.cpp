@@ -1,12 +1,16 @@
 // Fields on a grid of cells: density, velocity of the flow, temperature, stress and heat flux, averaged over the run and in time.
 //
-// Densities are moments of the disks whose centres are in a cell: of their number, of m, m v, m v v and (m v^2 / 2) v. A
-// collision carries momentum and energy at once along the line between the centres, from the partner to the disk: each cell gets
-// the share of that line which lies in it (Irving & Kirkwood, J. Chem. Phys. 18, 817 (1950)), so that fluxes are the same through
-// every line across a steady flow. The stress is the flux of momentum relative to the flow u, positive under pressure, and the
-// heat flux that of energy:
-//   P = <m v v> - rho u u + <r dp>,    q = <(m v^2 / 2) v> - u (rho u^2 / 2 + n kT) - P u + <r dE>,    per area (and time).
-// Nearer to a wall than a radius a part of the momentum is carried from the wall to centres, which is not counted here.
+// Densities are moments of the disks whose centres are in a cell: of their number, of m, m v, m v v and E v. E is m v^2 / 2, of
+// rough disks the energy I w^2 / 2 of their spin besides, and of disks with a pair potential half of the energy of each of their
+// pairs. A collision carries momentum and energy at once along the line between the centres, from the partner to the disk: each
+// cell gets the share of that line which lies in it (Irving & Kirkwood, J. Chem. Phys. 18, 817 (1950)), so that fluxes are the
+// same through every line across a steady flow. The stress is the flux of momentum relative to the flow u, positive under
+// pressure, and the heat flux that of energy:
+//   P = <m v v> - rho u u + <r dp>,    q = <E v> - u <E> - P u + <r dE>,    per area (and time).
+// r dE is half of what the disk gains less what its partner does. At the edge of a step both have equal shares of the energy of
+// the pair, which cancel. Spins are followed from collision to collision: by the impulse J along r the spins of both change by -2
+// (r x J) / (m R |r|), and walls and obstacles leave them. Nearer to a wall than a radius a part of the momentum is carried from
+// the wall to centres, which is not counted here.
 //
 // In a circular box the grid divides the square round the circle. The area of a cell is that of its part inside the circle, which
 // is a column of the averages; a cell without any has no fields.
@@ -17,8 +21,10 @@
 
 #include "observe/area_in_circle.hpp"
 #include "observe/blocking.hpp"
+#include "observe/near_pairs.hpp"
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"
+#include "scene/contact_scales.hpp"
 
 #include <algorithm>
 #include <array>
@@ -34,19 +40,20 @@ struct CellSums {
   double disks = 0.0, mass = 0.0;
   Eigen::Vector2d momentum = Eigen::Vector2d::Zero();        ///< of m v
   Eigen::Matrix2d momentum_flow = Eigen::Matrix2d::Zero();   ///< of m v v
-  Eigen::Vector2d energy_flow = Eigen::Vector2d::Zero();     ///< of (m v^2 / 2) v
+  Eigen::Vector2d energy_flow = Eigen::Vector2d::Zero();     ///< of E v
   Eigen::Matrix2d carried = Eigen::Matrix2d::Zero();         ///< of r dp, row: along r
   Eigen::Vector2d energy_carried = Eigen::Vector2d::Zero();  ///< of r dE
-  double lost = 0.0;                                         ///< kinetic energy that collisions have taken
+  double lost = 0.0;                                         ///< energy that contacts have taken
+  double internal = 0.0;                                     ///< energy of spins and pairs
 
   CellSums& operator+=(const CellSums& other) {
-    disks += other.disks, mass += other.mass, lost += other.lost;
+    disks += other.disks, mass += other.mass, lost += other.lost, internal += other.internal;
     momentum += other.momentum, momentum_flow += other.momentum_flow, energy_flow += other.energy_flow;
     carried += other.carried, energy_carried += other.energy_carried;
     return *this;
   }
   CellSums& operator-=(const CellSums& other) {
-    disks -= other.disks, mass -= other.mass, lost -= other.lost;
+    disks -= other.disks, mass -= other.mass, lost -= other.lost, internal -= other.internal;
     momentum -= other.momentum, momentum_flow -= other.momentum_flow, energy_flow -= other.energy_flow;
     carried -= other.carried, energy_carried -= other.energy_carried;
     return *this;
@@ -54,7 +61,7 @@ struct CellSums {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(disks, mass, momentum, momentum_flow, energy_flow, carried, energy_carried, lost);
+    archive(disks, mass, momentum, momentum_flow, energy_flow, carried, energy_carried, lost, internal);
   }
 };
 
@@ -88,7 +95,8 @@ FieldValues fields_of(const CellSums& sums, double steps, double step, double ar
   const Eigen::Matrix2d carried = sums.carried / (steps * step * area), stress = kinetic + carried;
   const double heat = 0.5 * kinetic.trace(), flow = 0.5 * sums.mass * u.squaredNorm() / (steps * area);
   const Eigen::Vector2d energy = sums.energy_flow / (steps * area) + sums.energy_carried / (steps * step * area);
-  const Eigen::Vector2d heat_flux = energy - (heat + flow) * u - stress * u;
+  const double carried_along = heat + flow + sums.internal / (steps * area);
+  const Eigen::Vector2d heat_flux = energy - carried_along * u - stress * u;
   found[1] = u.x(), found[2] = u.y();
   found[3] = heat / found[0];
   found[4] = stress(0, 0), found[5] = stress(0, 1), found[6] = stress(1, 0), found[7] = stress(1, 1);
@@ -97,12 +105,14 @@ FieldValues fields_of(const CellSums& sums, double steps, double step, double ar
   return found;
 }
 
-class Fields final : public SavedObservable<Fields> {
+class Fields final : public SavedObservable<Fields>, public ChangeFollower {
  public:
   Fields(const ObservableRequest& request, const ObservedRun& run)
       : SavedObservable(request, run),
         cells_(request.cells.value_or(std::array<std::int64_t, 2>{10, 10})),
         follows_(run.collisions_known),
+        potential_(run.acting->potential_steps()),
+        scales_(contact_scales<double>(run.scene.effects, run.disks)),
         coming_(static_cast<std::size_t>(cells_[0] * cells_[1])) {
     for (int axis = 0; axis < 2; ++axis)
       width_[axis] = run.scene.box.lengths()[axis] / static_cast<double>(cells_[static_cast<std::size_t>(axis)]);
@@ -114,10 +124,13 @@ class Fields final : public SavedObservable<Fields> {
   [[nodiscard]] bool follows_collisions() const override { return follows_; }
   [[nodiscard]] bool needs_places() const override { return true; }
 
+  void start(const State& state) override { spins_ = state.spins; }
+
   void collisions(std::span<const PairCollision> collisions) override {
     for (const PairCollision& met : collisions) {
-      const double gained = energy_gained(met.disk, met.velocity_before, met.velocity);
-      const double partner_gained = energy_gained(met.partner, met.partner_velocity_before, met.partner_velocity);
+      const double gained = energy_gained(met.disk, met.velocity_before, met.velocity) + spin_energy_gained(met.disk, met);
+      const double partner_gained =
+          energy_gained(met.partner, met.partner_velocity_before, met.partner_velocity) + spin_energy_gained(met.partner, met);
       const Eigen::Matrix2d carried = met.separation * met.impulse.transpose();
       const Eigen::Vector2d energy = 0.5 * (gained - partner_gained) * met.separation;
       const double lost = met.contact ? -(gained + partner_gained) : 0.0;
@@ -130,18 +143,25 @@ class Fields final : public SavedObservable<Fields> {
   }
 
   void sample(const State& state, const Totals&) override {
+    spins_ = state.spins;           // those that were followed, but for rounding
     if (state.time == 0.0) return;  // every step ends a stretch of time, in which disks have collided
+    const std::vector<double> internal = internal_energies(state);
+    seen_ += run_.disks.count();
     for (std::size_t i = 0; i < run_.disks.count(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
       CellSums* const cell = cell_at(state.positions.col(k));
-      if (cell == nullptr) continue;  // beyond where a wall that moves began
+      if (cell == nullptr) {  // beyond where a wall that moves began
+        ++outside_;
+        continue;
+      }
       const double mass = run_.disks.mass[i];
       const Eigen::Vector2d v = state.velocities.col(k);
       cell->disks += 1.0;
       cell->mass += mass;
       cell->momentum += mass * v;
       cell->momentum_flow += mass * v * v.transpose();
-      cell->energy_flow += 0.5 * mass * v.squaredNorm() * v;
+      cell->energy_flow += (0.5 * mass * v.squaredNorm() + internal[i]) * v;
+      cell->internal += internal[i];
     }
     if (++steps_ < steps_of_stretch_) return;
     stretches_.push_back(coming_);
@@ -156,9 +176,19 @@ class Fields final : public SavedObservable<Fields> {
     steps_of_stretch_ *= 2;
   }
 
+  void change(bool made, const Effects& effects, const State& state, const Totals&) override {
+    if (!made) return;
+    potential_ = effects.potential_steps();
+    spins_ = state.spins;
+  }
+  void end(const State&, const Totals&) override {}
+
   [[nodiscard]] Measurement finish(double, const Totals&) override {
-    Measurement found{.name = name()};
-    if (!follows_) found.note = "collisions were not recorded, so stress and heat flux are those that disks carry in flight";
+    Measurement found{.name = name(), .note = note_on_disks_outside(outside_, seen_)};
+    const auto remark = [&](const char* why) { found.note += (found.note.empty() ? "" : "; ") + std::string(why); };
+    if (!follows_) remark("collisions were not recorded, so stress and heat flux are those that disks carry in flight");
+    if (run_.scene.effects.collision.roughness.value_or(-1.0) != -1.0 && spins_.size() == 0)
+      remark("spins were not recorded, so heat flux and energy lost lack their energy");
     if (stretches_.empty()) {
       found.note = "the run is too short";
       return found;
@@ -169,7 +199,7 @@ class Fields final : public SavedObservable<Fields> {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(stretches_, coming_, steps_, steps_of_stretch_);
+    archive(stretches_, coming_, steps_, steps_of_stretch_, spins_, seen_, outside_);
   }
 
  private:
@@ -177,6 +207,40 @@ class Fields final : public SavedObservable<Fields> {
 
   [[nodiscard]] double energy_gained(std::int32_t disk, const Eigen::Vector2d& before, const Eigen::Vector2d& after) const {
     return 0.5 * run_.disks.mass[static_cast<std::size_t>(disk)] * (after.squaredNorm() - before.squaredNorm());
+  }
+
+  /// Returns the energy of spin that a disk gains in a collision, and gives it its spin after that: 0 for smooth disks.
+  [[nodiscard]] double spin_energy_gained(std::int32_t disk, const PairCollision& met) {
+    if (spins_.size() == 0) return 0.0;
+    const auto i = static_cast<std::size_t>(disk);
+    const double radius = run_.disks.radius[i], mass = run_.disks.mass[i];
+    const double along = (met.separation.x() * met.impulse.y() - met.separation.y() * met.impulse.x()) / met.separation.norm();
+    double& spin = spins_[disk];
+    const double before = spin;
+    spin -= 2.0 * along / (mass * radius);
+    return 0.25 * mass * radius * radius * (spin * spin - before * before);
+  }
+
+  /// Returns the energy of spin of each disk, and half of that of its pairs.
+  [[nodiscard]] std::vector<double> internal_energies(const State& state) const {
+    std::vector<double> energies(run_.disks.count());
+    for (std::size_t i = 0; i < energies.size() && state.spins.size() > 0; ++i) {
+      const double edge_speed = run_.disks.radius[i] * state.spins[static_cast<Eigen::Index>(i)];
+      energies[i] = 0.25 * run_.disks.mass[i] * edge_speed * edge_speed;
+    }
+    if (potential_.empty() || energies.empty()) return energies;
+    const double largest = *std::max_element(run_.disks.radius.begin(), run_.disks.radius.end());
+    for_each_near(box_of(run_.scene.box, state), state.positions, potential_.back().width * 2.0 * largest * scales_.largest(),
+                  [&](std::size_t i, std::size_t j, const std::array<std::int64_t, 2>&, const Eigen::Vector2d& r) {
+                    const double scale = scales_.of_disks(static_cast<std::int32_t>(i), static_cast<std::int32_t>(j));
+                    const double distance = r.norm() / ((run_.disks.radius[i] + run_.disks.radius[j]) * scale);
+                    const auto step = std::find_if(potential_.begin(), potential_.end(),
+                                                   [&](const PotentialStep& one) { return distance < one.width; });
+                    if (step == potential_.end()) return;
+                    energies[i] += 0.5 * step->energy;
+                    energies[j] += 0.5 * step->energy;
+                  });
+    return energies;
   }
 
   /// Returns the rectangle of a cell.
@@ -285,12 +349,16 @@ class Fields final : public SavedObservable<Fields> {
 
   std::array<std::int64_t, 2> cells_;
   bool follows_;
+  std::vector<PotentialStep> potential_;  ///< of pairs; empty without one
+  ContactScales<double> scales_;
   Eigen::Vector2d width_;
   std::vector<double> areas_;                     ///< of the cells, within a circular box
   std::vector<std::vector<CellSums>> stretches_;  ///< that have ended, in order of time; each by cell, row after row
   std::vector<CellSums> coming_;                  ///< the stretch that has begun
   std::uint64_t steps_ = 0, steps_of_stretch_ = 1;
-  std::vector<double> crossings_;  ///< scratch
+  Eigen::VectorXd spins_;                 ///< after the last collision of each disk; empty where they are smooth
+  std::uint64_t seen_ = 0, outside_ = 0;  ///< disks at the steps, in all and beyond the grid
+  std::vector<double> crossings_;         ///< scratch
 };
 
 }  // namespace

@@ -7,13 +7,24 @@
 
 #include <carom/observe.hpp>
 
+#include <fmt/format.h>
+
 #include <cstddef>
+#include <cstdint>
 #include <istream>
 #include <ostream>
 #include <string>
 #include <utility>
 
 namespace carom {
+
+/// Returns the remark on an observable of places whose bins or cells are those of the box of the start; empty where no disk was
+/// outside of them. `outside` of the `seen` disks of all samples were.
+[[nodiscard]] inline std::string note_on_disks_outside(std::uint64_t outside, std::uint64_t seen) {
+  if (outside == 0) return {};
+  return fmt::format("bins end where the walls began: {:.3g} % of the disks were beyond, behind walls that had moved outward",
+                     100.0 * static_cast<double>(outside) / static_cast<double>(seen));
+}
 
 /// `Self` derives from this, and lists what it has gathered in `template <class Archive> void serialize(Archive& archive)`. What
 /// it is made with is not among it.

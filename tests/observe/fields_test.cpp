@@ -111,6 +111,136 @@ TEST(Fields, OfDisksThatDissipateTellTheEnergyThatCollisionsTake) {
   EXPECT_NEAR(mean_of(field(o, "energy_lost")) * o.scene.box.area() * o.time, o.totals.dissipated, 1e-10 * o.totals.dissipated);
 }
 
+TEST(Fields, OfRoughDisksCarryTheEnergyOfSpin) {
+  const Observed o =
+      observe(parse_scene("[box]\nx = [0.0, 10.0]\ny = [0.0, 10.0]\nboundary = \"periodic\"\n[[disks]]\nradius = "
+                          "0.5\nmass = 2.0\npositions = [[2.0, 1.3], [5.0, 1.0]]\nvelocities = [[1.0, 0.0], [-1.5, "
+                          "0.0]]\n[collision]\nrule = \"specular\"\nroughness = 1.0\n[run]\ntime = "
+                          "2.0\n[observe]\nfields = { every = 0.25, cells = [1, 1] }\n"),
+              0.25);
+  ASSERT_EQ(o.totals.pair, 1U);
+  EXPECT_NEAR(field(o, "energy_lost")[0], 0.0, 1e-15) << "perfectly rough disks lose nothing";
+  const auto energy = [](const State& state, int i) {
+    return state.velocities.col(i).squaredNorm() + 0.25 * 2.0 * 0.25 * state.spins[i] * state.spins[i];
+  };
+  const State &first = o.record.states.front(), &last = o.record.states.back();
+  EXPECT_GT(std::abs(last.spins[0]), 0.1);
+  EXPECT_NEAR(energy(first, 0) + energy(first, 1), energy(last, 0) + energy(last, 1), 1e-14);
+  const double area = 100.0, steps = 8.0, time = 2.0;
+  Eigen::Vector2d flow(0.0, 0.0), momentum(0.0, 0.0);
+  Eigen::Matrix2d stress = Eigen::Matrix2d::Zero();
+  double held = 0.0;
+  for (std::size_t k = 1; k < o.record.states.size(); ++k)
+    for (int i = 0; i < 2; ++i) {
+      const State& state = o.record.states[k];
+      flow += energy(state, i) * state.velocities.col(i) / steps;
+      held += energy(state, i) / steps;
+      momentum += 2.0 * state.velocities.col(i) / steps;
+      stress += 2.0 * state.velocities.col(i) * state.velocities.col(i).transpose() / steps;
+    }
+  const double met = o.record.events.at(0).time;
+  const Eigen::Vector2d r =
+      (first.positions.col(0) + met * first.velocities.col(0)) - (first.positions.col(1) + met * first.velocities.col(1));
+  EXPECT_NEAR(r.norm(), 1.0, 1e-14);
+  const Eigen::Vector2d passed = (energy(last, 0) - energy(first, 0)) * r;
+  const Eigen::Vector2d impulse = 2.0 * (last.velocities.col(0) - first.velocities.col(0));
+  const Eigen::Vector2d u = momentum / 4.0;
+  stress += -4.0 * u * u.transpose() + r * impulse.transpose() / time;
+  const Eigen::Vector2d expected = (flow + passed / time - held * u - stress * u) / area;
+  EXPECT_NEAR(field(o, "heat_flux_x")[0], expected.x(), 1e-15);
+  EXPECT_NEAR(field(o, "heat_flux_y")[0], expected.y(), 1e-15);
+}
+
+TEST(Fields, OfDisksInWellsCarryTheEnergyOfPairs) {
+  const Observed o = observe(
+      parse_scene("[box]\nx = [0.0, 8.0]\ny = [0.0, 8.0]\nboundary = { x = \"periodic\", y = \"walls\" }\n[[disks]]\ncount = "
+                  "30\nradius = 0.5\nmass = 2.0\npositions = \"random\"\nvelocities = { temperature = 1.0 }\n[collision]\nrule = "
+                  "\"specular\"\n[square_well]\nwidth = 1.8\ndepth = 1.5\n[run]\ntime = 2.0\n[observe]\nfields = { every = "
+                  "0.125, cells = [1, 1] }\n"),
+      0.125);
+  ASSERT_GT(o.record.states.back().bonds, 10U);
+  // Sums over all disks and pairs of each state, and over the events of the log.
+  const auto flux = [&](bool with_pairs) {
+    Eigen::Vector2d flow(0.0, 0.0), momentum(0.0, 0.0);
+    double held = 0.0;
+    std::size_t bonds = 0;
+    for (std::size_t k = 1; k < o.record.states.size(); ++k) {
+      const State& state = o.record.states[k];
+      for (Eigen::Index i = 0; i < 30; ++i) {
+        double energy = state.velocities.col(i).squaredNorm();
+        for (Eigen::Index j = 0; j < 30 && with_pairs; ++j) {
+          Eigen::Vector2d r = state.positions.col(i) - state.positions.col(j);
+          r.x() = std::remainder(r.x(), 8.0);
+          if (i == j || r.norm() > 1.8) continue;
+          energy -= 0.75;
+          ++bonds;
+        }
+        flow += energy * state.velocities.col(i);
+        held += energy;
+        momentum += 2.0 * state.velocities.col(i);
+      }
+      EXPECT_EQ(bonds, with_pairs ? 2 * state.bonds : 0);
+      bonds = 0;
+    }
+    return Eigen::Vector2d((flow - held * momentum / (60.0 * 16.0)) / (16.0 * 64.0));
+  };
+  // What is left beside the flights is P u and what collisions pass on.
+  Eigen::Vector2d rest = flux(true);
+  const Eigen::Vector2d of_motion = flux(false);
+  EXPECT_GT((rest - of_motion).norm(), 1e-3);
+  std::vector<Eigen::Vector2d> v(30);
+  Eigen::Vector2d momentum(0.0, 0.0), passed(0.0, 0.0);
+  Eigen::Matrix2d stress = Eigen::Matrix2d::Zero();
+  const State& start = o.record.states.front();
+  std::vector<Eigen::Vector2d> x(30);
+  std::vector<double> since(30, 0.0);
+  for (Eigen::Index i = 0; i < 30; ++i)
+    v[static_cast<std::size_t>(i)] = start.velocities.col(i), x[static_cast<std::size_t>(i)] = start.positions.col(i);
+  for (const Event& event : o.record.events) {
+    const auto i = static_cast<std::size_t>(event.disk);
+    x[i] += v[i] * (event.time - since[i]), since[i] = event.time;
+    if (event.partner >= 0) {
+      const auto j = static_cast<std::size_t>(event.partner);
+      x[j] += v[j] * (event.time - since[j]), since[j] = event.time;
+      Eigen::Vector2d r = x[i] - x[j];
+      r.x() = std::remainder(r.x(), 8.0);
+      stress += r * (2.0 * (event.velocity - v[i])).transpose() / 2.0;
+      const double gained = event.velocity.squaredNorm() - v[i].squaredNorm();
+      const double partner = event.partner_velocity.squaredNorm() - v[j].squaredNorm();
+      passed += 0.5 * (gained - partner) * r / 2.0;
+      v[j] = event.partner_velocity;
+    }
+    v[i] = event.velocity;
+  }
+  for (std::size_t k = 1; k < o.record.states.size(); ++k) {
+    momentum += 2.0 * o.record.states[k].velocities.rowwise().sum() / 16.0;
+    stress += 2.0 * o.record.states[k].velocities * o.record.states[k].velocities.transpose() / 16.0;
+  }
+  const Eigen::Vector2d u = momentum / 60.0;
+  stress -= 60.0 * u * u.transpose();
+  rest += (passed - stress * u) / 64.0;
+  EXPECT_NEAR(field(o, "heat_flux_x")[0], rest.x(), 1e-12);
+  EXPECT_NEAR(field(o, "heat_flux_y")[0], rest.y(), 1e-12);
+}
+
+TEST(Fields, SayHowManyDisksWereBeyondTheGrid) {
+  const auto notes = [](const std::string& wall) {
+    const Observed o = observe(parse_scene("[box]\nx = [0.0, 8.0]\ny = [0.0, 8.0]\nboundary = \"walls\"\n[[disks]]\ncount = 1\n"
+                                           "radius = 0.5\nmass = 1.0\npositions = [[7.0, 4.0]]\nvelocities = [[1.0, 0.0]]\n"
+                                           "[collision]\nrule = \"specular\"\n[walls]\nright = { velocity = " +
+                                           wall +
+                                           " }\n[run]\ntime = 2.0\n[observe]\nfields = { every = 0.25, cells = [2, 1] }\n"
+                                           "density_profile = { axis = \"x\", bins = 4, every = 0.25 }\n"),
+                               0.25);
+    return std::pair(o.of("fields").note, o.of("density_profile").note);
+  };
+  EXPECT_EQ(notes("0.0"), std::pair(std::string(), std::string()));
+  // At 1.25, 1.5, 1.75 and 2 the centre is beyond 8; at 1 it is at the edge, which the last cell and no bin holds.
+  const auto [fields, profile] = notes("2.0");
+  EXPECT_EQ(fields, "bins end where the walls began: 50 % of the disks were beyond, behind walls that had moved outward");
+  EXPECT_EQ(profile, "bins end where the walls began: 55.6 % of the disks were beyond, behind walls that had moved outward");
+}
+
 /// Heat goes from the hot wall to the cold one: as much through every line across, and as much as through the walls.
 TEST(SlowFields, HeatFluxIsTheSameThroughEveryLineBetweenWallsOfTwoTemperatures) {
   const Observed o = observe(
