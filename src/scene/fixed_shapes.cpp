@@ -147,6 +147,26 @@ void require_inside(const Box& box, const Eigen::Vector2d& point, const std::str
   }
 }
 
+/// Refuses an obstacle of which a part is outside a circular box. `farthest` is the point of it that is the farthest from the
+/// centre of the circle, or with `beyond` the centre of a disk of that radius; `what` is the key.
+void require_in_circle(const Box& box, const Eigen::Vector2d& farthest, const std::string& path, const std::string& what,
+                       double beyond = 0.0) {
+  if (!box.is_circle) return;
+  const Eigen::Vector2d centre = 0.5 * (box.lower + box.upper);
+  const double radius = 0.5 * box.lengths().x(), reach = (farthest - centre).norm() + beyond;
+  if (reach <= radius * (1.0 + 2.0 * touching)) return;
+  throw Refusal(path, fmt::format("{}{} reaches {:.6g} from the centre of the circle, beyond its rim; it must stay within {:.6g}",
+                                  path, what, reach, radius));
+}
+
+/// Returns the point of an arc that is the farthest from `place`.
+Eigen::Vector2d farthest_on(const ArcObstacle& arc, const Eigen::Vector2d& place) {
+  const Eigen::Vector2d away = arc.centre - place;
+  if (away.norm() > 0.0 && spans(arc, away)) return arc.centre + arc.radius * away.normalized();
+  const Eigen::Vector2d one = arc.centre + arc.radius * direction(arc.from), other = arc.centre + arc.radius * direction(arc.to);
+  return (one - place).norm() > (other - place).norm() ? one : other;
+}
+
 void check_numbers_of(const Obstacle& obstacle, const std::string& path) {
   if (const auto* disk = std::get_if<DiskObstacle>(&obstacle)) {
     require_pair(path + ".disk.centre", disk->centre, keys::disk_example);
@@ -166,6 +186,7 @@ void check_numbers_of(const Obstacle& obstacle, const std::string& path) {
 /// Through a periodic edge a disk may stick out, but not so far that it meets its own image.
 void check_disk(const Box& box, const DiskObstacle& disk, const std::string& path) {
   require_inside(box, disk.centre, path, ".disk.centre");
+  require_in_circle(box, disk.centre, path, ".disk", disk.radius);
   for (int axis = 0; axis < 2; ++axis) {
     const double length = box.lengths()[axis];
     if (box.periodic(axis) && 2.0 * disk.radius >= length) {
@@ -189,6 +210,8 @@ void check_segment(const Box& box, const SegmentObstacle& segment, const std::st
                               segment.from.x(), segment.from.y(), keys::segment_example));
   require_inside(box, segment.from, path, ".segment.from");
   require_inside(box, segment.to, path, ".segment.to");
+  require_in_circle(box, segment.from, path, ".segment.from");
+  require_in_circle(box, segment.to, path, ".segment.to");
 }
 
 /// The whole arc lies in the box: what sticks out would be met by nothing, or by its own image.
@@ -200,6 +223,7 @@ void check_arc(const Box& box, const ArcObstacle& arc, const std::string& path) 
         fmt::format("{}.arc runs counterclockwise from {} to {} degrees; `to` must be above `from`, by at most 360, such "
                     "as {}",
                     path, arc.from, arc.to, keys::arc_example));
+  require_in_circle(box, farthest_on(arc, 0.5 * (box.lower + box.upper)), path, ".arc");
   const Rectangle bounds = bounds_of(arc);
   const double slack = 2.0 * touching * arc.radius;
   for (int axis = 0; axis < 2; ++axis) {
