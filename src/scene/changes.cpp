@@ -162,12 +162,13 @@ std::string changes_text(const Change& change) {
   return fmt::format("[[changes]]\ntime = {}\n{}\n", detail::number_text(change.time), std::visit(Text{}, change.what));
 }
 
-void require_changeable(const std::string& override_text) {
+void require_changeable(const std::string& override_text, bool of_disks_too) {
   const std::string key = override_text.substr(0, override_text.find_first_of("= "));
   for (const char* const table : {"box", "run", "output", "observe", "title", "changes"})
     if (key == table || key.starts_with(std::string(table) + "."))
       throw SceneError(
-          {}, fmt::format("{} belongs to the start of a run; a change may set effects, and radius and mass of disks", key));
+          {}, fmt::format("{} belongs to the start of a run; a change may set effects{}", key,
+                          of_disks_too ? ", and radius and mass of disks" : ", the tables from [collision] to [non_additivity]"));
   if (key.starts_with("disks.") && !key.ends_with(".radius") && !key.ends_with(".mass"))
     throw SceneError({}, fmt::format("{} belongs to the start of a run; a change may set radius and mass of disks", key));
 }
@@ -176,7 +177,7 @@ void require_changeable(const std::string& override_text) {
 Effects effects_after(const Effects& effects, const Change& change) {
   Effects after = effects;
   if (const auto* set = std::get_if<SetKeys>(&change.what)) {
-    for (const std::string& text : set->overrides) require_changeable(text);
+    for (const std::string& text : set->overrides) require_changeable(text, false);
     toml::table document = detail::parse_toml(detail::effects_toml(effects), "effects");
     for (const std::string& text : set->overrides) detail::apply_override(document, text);
     try {

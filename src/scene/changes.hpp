@@ -26,7 +26,7 @@ namespace carom {
 [[nodiscard]] Effects effects_after(const Effects& effects, const Change& change);
 
 /// Throws SceneError where an override is of a key that a run has only at its start.
-void require_changeable(const std::string& override_text);
+void require_changeable(const std::string& override_text, bool of_disks_too = true);
 
 /// Returns what acts at a time of the measured run: what the scene begins with and all changes before that time have left.
 [[nodiscard]] Effects effects_at(const Scene& scene, double time);

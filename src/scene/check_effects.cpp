@@ -53,9 +53,10 @@ void check_gravity(const Scene& scene) {
     if (!scene.box.periodic(axis) || gravity.acceleration[axis] == 0.0 || takes_momentum_and_energy(scene.effects)) continue;
     throw Refusal(
         "gravity",
-        fmt::format("gravity.acceleration is {} in {}, where the box is periodic and nothing holds the disks back; make it "
-                    "0 there, give that axis walls, or give the other axis a wall with a temperature",
-                    gravity.acceleration[axis], axis_names[axis]));
+        fmt::format(
+            "gravity.acceleration is {} in {}, where the box is periodic and nothing holds the disks back; make it "
+            "0 there, give that axis walls, give the other axis a wall with a temperature, or add [thermostat] or [brownian]",
+            gravity.acceleration[axis], axis_names[axis]));
   }
 }
 

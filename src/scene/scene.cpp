@@ -62,6 +62,9 @@ std::vector<std::string_view> tables() {
 }
 
 void read_document(const toml::table& document, const std::string& directory, detail::SceneDraft& draft) {
+  if (const toml::node* scene = document.get("scene");
+      scene != nullptr && scene->is_string() && (document.contains("seeds") || document.contains("grid")))
+    throw SceneError(detail::location_of(*scene), "this is a sweep, whose scene is in a file of its own; run it by carom sweep");
   const detail::TableReader reader(document, "", tables());
   Scene& scene = draft.scene;
   scene.title = reader.string("title", "title = \"Disks in a box\"").value_or("");

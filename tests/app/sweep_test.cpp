@@ -131,6 +131,15 @@ TEST_F(ScenesSweep, ARunThatFailsIsListedAndStopsNoOther) {
   EXPECT_EQ(results(), mended);
 }
 
+TEST_F(ScenesSweep, TheTableOnTheTerminalSaysWhichColumnsItLeavesOut) {
+  write_text(file("wide.toml"),
+             "scene = \"gas.toml\"\ntable = [\"time\", \"pressure.Z\", \"temperature.mean\", \"packing_fraction\", "
+             "\"energy.initial\", \"energy.final\"]\n[grid]\ndisks.0.radius = [0.1, 0.2]\n");
+  const Outcome outcome = carom({"sweep", "wide.toml"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("  not shown, but in sweep.csv: energy.initial, energy.final\n"));
+}
+
 TEST_F(ScenesSweep, InfoTellsWhatASweepHasLeft) {
   ASSERT_EQ(sweep({"-q"}).exit_code, 0);
   const Outcome whole = carom({"info", "gas-sweep"});
@@ -170,6 +179,8 @@ TEST_F(SweepCommand, WhatIsWrongIsSaidBeforeAnythingRuns) {
   refused_sweep("scene = \"gas.toml\"\n[grid]\ndisks.0.radius = [0.1, 9.0]\n",
                 "wrong.toml:3:24: the scene of the point radius=9.0");
   refused_sweep("scene = \"gas.toml\"\n[gird]\n", "wrong.toml:2:2: a sweep has no key \"gird\"; did you mean \"grid\"?");
+  refused({"run", "gas-sweep.toml"},
+          "gas-sweep.toml:1:9: this is a sweep, whose scene is in a file of its own; run it by carom sweep");
   refused({"sweep", "nowhere.toml"}, "nowhere.toml: there is no such file");
   refused({"sweep", "gas-sweep.toml", "--threads", "0"}, "--threads 0: it can be 1 to 4096");
   refused({"sweep", "gas-sweep.toml", "--progress", "often"}, "--progress often: ");

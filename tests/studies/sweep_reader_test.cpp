@@ -195,6 +195,12 @@ TEST_F(SweepReader, ATableHasFunctionsOfALagAtALag) {
   EXPECT_THAT(at("overlap.overlap@lag"), HasSubstr("behind @ there is to be a value of lag"));
 }
 
+TEST_F(SweepReader, AColumnThatBeginsAsAnotherIsThatOne) {
+  EXPECT_THAT(files_.refusal(scene_line + "table = [\"observables.intermediate_scattering.F_s@0.3\"]\n[set]\nrun.time = 4.0\n"
+                                          "observe = { intermediate_scattering = true }\n"),
+              HasSubstr("did you mean \"observables.intermediate_scattering.F_self@lag\"?"));
+}
+
 TEST_F(SweepReader, ASceneIsToldFromASweep) {
   EXPECT_THAT(files_.refusal(fifty_disks), HasSubstr("this is a scene: carom run runs it"));
 }

@@ -251,6 +251,10 @@ std::string fault_of_number_name(const std::string& name, const std::vector<std:
       return fmt::format("behind @ there is to be a value of {}, such as {}1.5", form->substr(sign + 1),
                          form->substr(0, sign + 1));
     if (form != numbers.end()) return "no run is that long; a lag is at most run.time";
+    const auto longer = std::find_if(numbers.begin(), numbers.end(), [&](const std::string& number) {
+      return number.starts_with(name.substr(0, sign)) && number.find('@') != std::string::npos;
+    });
+    if (longer != numbers.end()) return fmt::format("no run has that number; did you mean \"{}\"?", *longer);
   }
   const std::vector<std::string_view> words(numbers.begin(), numbers.end());
   const std::string_view near = detail::nearest_word(name, words);

@@ -54,7 +54,7 @@ namespace {
 
 constexpr std::size_t most_columns = 4, most_points = 40, most_failures = 20;
 
-/// Returns the columns that were asked for, or the most common ones.
+/// Returns the first of the columns that were asked for, or the most common ones.
 std::vector<std::size_t> shown_columns(const Sweep& sweep, const SweepResults& results) {
   std::vector<std::size_t> columns;
   if (sweep.table.empty())
@@ -84,6 +84,12 @@ std::string table_of(const Sweep& sweep, const SweepResults& results) {
     put(sweep.points[point].name, [&](std::size_t k) { return average_words(results.averages[point][k]); });
   std::string text = table.text();
   if (sweep.points.size() > most_points) text += fmt::format("  and {} more in sweep.csv\n", sweep.points.size() - most_points);
+  if (sweep.table.size() > columns.size()) {
+    std::vector<std::string> left_out;
+    for (std::size_t k = 0; k < results.numbers.size(); ++k)
+      if (std::find(columns.begin(), columns.end(), k) == columns.end()) left_out.push_back(results.numbers[k]);
+    text += fmt::format("  not shown, but in sweep.csv: {}\n", fmt::join(left_out, ", "));
+  }
   return text;
 }
 
