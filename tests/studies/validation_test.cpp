@@ -52,6 +52,18 @@ TEST(ValidationCheck, HoldsWithinFiveStandardErrorsBeyondTheAllowance) {
   EXPECT_EQ(check(1.0, 1.1, 0.1, 0.2).deviation(), 0.0);
 }
 
+TEST(ValidationCheck, FailsWithAnErrorTooLargeForItsClaim) {
+  Check wide = check(1.0, 1.01, 0.02);
+  EXPECT_TRUE(wide.holds());
+  wide.largest_error = 0.01;
+  EXPECT_FALSE(wide.holds());
+  EXPECT_EQ(row_of(wide).verdict, "TOO UNCERTAIN");
+  wide.measured.error = 0.01;
+  EXPECT_TRUE(wide.holds());
+  wide.measured.error = nan;
+  EXPECT_FALSE(wide.holds());
+}
+
 TEST(ValidationCheck, WithoutAnErrorOnlyTheAllowanceCounts) {
   EXPECT_TRUE(check(1.0, 1.0, 0.0).holds());
   EXPECT_FALSE(check(1.0, 1.0 + 1e-15, 0.0).holds());

@@ -35,6 +35,8 @@ bool Check::calibrates() const {
   return judged == Judged::agrees && normal && allowance + reference_error < 0.2 * measured.error;
 }
 
-bool Check::holds() const { return judged == Judged::shown || fits() == (judged == Judged::agrees); }
+bool Check::too_uncertain() const { return largest_error > 0.0 && !(error() <= largest_error); }
+
+bool Check::holds() const { return judged == Judged::shown || (fits() == (judged == Judged::agrees) && !too_uncertain()); }
 
 }  // namespace carom

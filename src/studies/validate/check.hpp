@@ -34,6 +34,8 @@ struct Check {
   /// The deviation in standard errors, where it is not the difference over the error: a test whose statistic is not normal.
   std::optional<double> equivalent = {};
   Judged judged = Judged::agrees;
+  /// The largest standard error with which the check still says what it claims; a larger one fails it. 0: any will do.
+  double largest_error = 0.0;
 
   /// Returns the standard error of measured - expected: that of both.
   [[nodiscard]] double error() const;
@@ -47,7 +49,9 @@ struct Check {
   /// Returns whether z() is that of the measurement alone: a normal statistic that must agree, with an error of its own that is
   /// no bound, of which the errors of reference and theory together are less than a fifth.
   [[nodiscard]] bool calibrates() const;
-  /// Returns whether fits() is what it must be.
+  /// Returns whether the error is too large for the claim, or no number where there is to be one.
+  [[nodiscard]] bool too_uncertain() const;
+  /// Returns whether fits() is what it must be, and the check is not too_uncertain().
   [[nodiscard]] bool holds() const;
 };
 

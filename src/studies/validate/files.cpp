@@ -60,6 +60,7 @@ Json json_of(const Check& check) {
                {"fits", check.fits()},
                {"holds", check.holds()}};
   if (check.equivalent) json["equivalent"] = number(*check.equivalent);
+  if (check.largest_error > 0.0) json["largest_error"] = check.largest_error;
   return json;
 }
 
@@ -75,6 +76,7 @@ Check check_of(const Json& json) {
               .error_is_bound = json.at("error_is_bound")};
   if (json.contains("equivalent"))
     check.equivalent = json["equivalent"].is_null() ? std::numeric_limits<double>::infinity() : json["equivalent"].get<double>();
+  check.largest_error = json.value("largest_error", 0.0);
   const std::string judged = json.at("judged");
   for (const auto& [value, word] : judgements)
     if (judged == word) check.judged = value;

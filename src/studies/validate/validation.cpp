@@ -147,7 +147,7 @@ std::string number(double value, double error) {
 std::string verdict_of(const Check& check) {
   switch (check.judged) {
     case Judged::agrees:
-      return check.fits() ? "agrees" : "FAILS";
+      return !check.fits() ? "FAILS" : check.too_uncertain() ? "TOO UNCERTAIN" : "agrees";
     case Judged::disagrees:
       return check.fits() ? "FITS, and must not" : "fails, as it must";
     case Judged::shown:
@@ -196,6 +196,7 @@ std::string sentence_of(const Check& check) {
   if (check.allowance > 0.0)
     text += counted ? fmt::format(", {} beyond the allowance of {:.2g}", row.beyond, check.allowance)
                     : fmt::format(", {} the allowance of {:.2g}", check.fits() ? "within" : "beyond", check.allowance);
+  if (check.too_uncertain()) text += fmt::format(", and the error is to be at most {:.2g}", check.largest_error);
   return text;
 }
 
