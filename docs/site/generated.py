@@ -86,7 +86,8 @@ time = 1.0
 # Tables whose keys need each other: an error about one is only seen where the others are right.
 TOGETHER = ["growth={ rate = 0.01 }", "thermostat={ temperature = 1.0, rate = 0.1 }", "square_well={ width = 1.5, depth = 1.0 }",
             "stepped_potential={ steps = [{ width = 1.2, energy = 1.0 }] }",
-            "brownian={ temperature = 1.0, rate = 0.1 }", "non_additivity={ delta = -0.1 }", "run.sample_log={ base = 1.3, per_block = 50, block = 1.0 }"]
+            "brownian={ temperature = 1.0, rate = 0.1 }", "non_additivity={ delta = -0.1 }", "run.sample_log={ base = 1.3, per_block = 50, block = 1.0 }",
+            *(f'walls.{side}.vibration={{ form = "sine", amplitude = 0.1, frequency = 2.0 }}' for side in ("left", "right", "bottom", "top"))]
 NO_KEY = "qqqqqqqqqqqqqqqq"
 
 

@@ -34,6 +34,23 @@ struct Gravity {
   Eigen::Vector2d acceleration = Eigen::Vector2d::Zero();  ///< length / time^2; neutral: zero
 };
 
+/// How a wall moves within a period: inward as the sine of time, or inward at constant velocity and back at once.
+enum class WaveForm { sine, sawtooth };
+
+/// The motion of a wall that vibrates with an amplitude: the table `vibration` of a wall. At the start of the run, or of the
+/// change that sets it, the wall is where it was before, `phase` into a period.
+struct Oscillation {
+  WaveForm form = WaveForm::sine;
+  double amplitude = 0.0;  ///< half of the way between the outermost and the innermost position; length, >= 0; neutral: 0
+  double frequency = 0.0;  ///< periods in a unit of time, >= 0; neutral: 0
+  /// Part of a period in [0, 1]. A sine begins it in the middle, at its fastest inward; a sawtooth at its outermost position.
+  double phase = 0.0;
+
+  /// Returns whether the wall moves at all.
+  [[nodiscard]] bool moves() const { return amplitude > 0.0 && frequency > 0.0; }
+  [[nodiscard]] bool operator==(const Oscillation& other) const = default;
+};
+
 /// The properties of one wall: one key of the [walls] table. Without any of them it is a hard wall at rest.
 struct WallProperties {
   std::optional<double> restitution = {};  ///< e in [0, 1]; neutral: 1
@@ -46,10 +63,12 @@ struct WallProperties {
   /// Speed >= 0 of a wall that vibrates infinitely fast with no amplitude: disks are hit as if it moved inward at this speed, and
   /// it stays where it is. Excludes `temperature`, `velocity` and `mass`; neutral: 0
   std::optional<double> vibration = {};
+  /// Vibration with an amplitude. Excludes `vibration`, `temperature`, `velocity` and `mass`
+  std::optional<Oscillation> oscillation = {};
 
   /// Returns whether the scene names any property of this wall.
   [[nodiscard]] bool present() const {
-    return restitution || temperature || velocity || tangential_velocity || vibration || mass;
+    return restitution || temperature || velocity || tangential_velocity || vibration || oscillation || mass;
   }
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 // The four sides of the box, each by itself: hard, inelastic, diffuse at a temperature (and perhaps sliding along itself), moving
-// at constant speed, vibrating without amplitude, or a free piston under a load. Where nothing is asked of a side, the component
-// of the velocity across it is reversed when the disk's edge reaches it.
+// at constant speed, vibrating with or without amplitude, or a free piston under a load. Where nothing is asked of a side, the
+// component of the velocity across it is reversed when the disk's edge reaches it.
 //
 // A side is like a disk of infinite width: a displacement, a velocity and an acceleration since a time of its own. Speeds
 // here are outward ones, positive towards the left at the left wall, so that all four sides are treated alike.
@@ -11,6 +11,7 @@
 #include "core/random.hpp"
 #include "core/sides.hpp"
 #include "effects/maxwell.hpp"
+#include "effects/oscillation.hpp"
 #include "effects/rebound.hpp"
 #include "effects/vanishing.hpp"
 
@@ -38,6 +39,7 @@ class Walls {
       side.temperature = asked.temperature.value_or(0.0);
       side.sliding = Real(asked.tangential_velocity.value_or(0.0));
       side.vibration = Real(asked.vibration.value_or(0.0));
+      side.oscillation = OscillatingSide<Real>(asked.oscillation);
       side.velocity = Real(asked.velocity.value_or(0.0)) * (is_upper(wall) ? 1 : -1);
       side.mass = Real(asked.mass.value_or(0.0));
       if (asked.mass) side.acceleration = -Real(asked.load.value_or(0.0) * box.lengths()[1 - axis_of(wall)] / *asked.mass);
@@ -50,9 +52,11 @@ class Walls {
 
   /// Returns the time a disk takes to reach the side, from time t >= since(wall). `room`: from the disk's edge to where the side
   /// of the box was at the start, `outward` and `acceleration`: the disk's, `expansion`: of its radius, all at t. Infinite for
-  /// never.
-  [[nodiscard]] Real contact(Wall wall, Real room, Real outward, Real acceleration, Real expansion, Real t) const {
+  /// never, and perhaps where it takes longer than `until`, on which the bits of the time do not depend.
+  [[nodiscard]] Real contact(Wall wall, Real room, Real outward, Real acceleration, Real expansion, Real t,
+                             Real until = infinity<Real>) const {
     const Side& s = side(wall);
+    if (s.oscillation.present()) return s.oscillation.contact(room, -outward - expansion, -acceleration, t, until);
     return fall_time<Real>(room + s.displacement_at(t), (s.velocity_at(t) - outward) - expansion, s.acceleration - acceleration);
   }
 
@@ -60,6 +64,7 @@ class Walls {
   /// then.
   [[nodiscard]] bool recedes(Wall wall, Real outward, Real acceleration, Real expansion, Real t) const {
     const Side& s = side(wall);
+    if (s.oscillation.present()) return false;
     return (s.velocity_at(t) - outward) - expansion >= 0 && s.acceleration >= acceleration;
   }
 
@@ -95,7 +100,7 @@ class Walls {
       v[1 - axis] = Real(drawn.along) + s.sliding;
       shear = mass * (along - v[1 - axis]);
     } else {
-      const Real restitution = elastic ? Real(1) : s.restitution, pressing = sign * g[axis] - s.acceleration;
+      const Real restitution = elastic ? Real(1) : s.restitution, pressing = sign * g[axis] - s.acceleration_at(t);
       const Real parting = rebound<Real>(closing, restitution, pressing, radius);
       if (restitution < 1 && closing > 0 && !(pressing > 0)) small = smallness<Real>(closing, radius);
       after = (surface - expansion) - parting;
@@ -115,21 +120,23 @@ class Walls {
   /// Returns whether the side moves by itself after a contact, which makes all predictions with it void.
   [[nodiscard]] bool is_piston(Wall wall) const { return side(wall).mass > 0; }
   [[nodiscard]] bool any_moves() const {
-    return std::any_of(sides_.begin(), sides_.end(), [](const Side& s) { return s.velocity != 0 || s.mass > 0; });
+    return std::any_of(sides_.begin(), sides_.end(),
+                       [](const Side& s) { return s.velocity != 0 || s.mass > 0 || s.oscillation.present(); });
   }
   /// Returns whether any side is not where the box has it.
   [[nodiscard]] bool any_moved() const {
     return std::any_of(sides_.begin(), sides_.end(), [](const Side& s) { return s.displacement != 0; });
   }
-  /// The fastest that any of the sides moves at time t.
+  /// The fastest that any of the sides moves at time t, or in any of its periods.
   [[nodiscard]] Real fastest(Real t) const {
     using std::abs;
     Real most = 0;
-    for (const Side& s : sides_) most = std::max<Real>(most, abs(s.velocity_at(t)));
+    for (const Side& s : sides_)
+      most = std::max<Real>(most, s.oscillation.present() ? s.oscillation.fastest() : abs(s.velocity_at(t)));
     return most;
   }
 
-  /// The strongest acceleration of any of the sides.
+  /// The strongest acceleration of any of the sides that can go far by it.
   [[nodiscard]] Real strongest() const {
     using std::abs;
     Real most = 0;
@@ -143,6 +150,10 @@ class Walls {
   /// The clock's zero moves to `now`.
   void rebase(Real now) {
     for (Side& s : sides_) {
+      if (s.oscillation.present()) {
+        s.oscillation.rebase(now);
+        continue;
+      }
       const Real displacement = s.displacement_at(now), velocity = s.velocity_at(now);
       s.displacement = displacement;
       s.velocity = velocity;
@@ -157,6 +168,10 @@ class Walls {
       const double sign = is_upper(wall) ? 1.0 : -1.0;
       const double edge = is_upper(wall) ? box_.upper[axis_of(wall)] : box_.lower[axis_of(wall)];
       sides_[k].displacement = Real(sign * (walls[k].position - edge));
+      if (sides_[k].oscillation.present()) {
+        sides_[k].oscillation.place(sides_[k].displacement);
+        continue;
+      }
       sides_[k].velocity = Real(sign * walls[k].velocity);
     }
   }
@@ -165,6 +180,21 @@ class Walls {
   [[nodiscard]] std::uint64_t draws() const { return draws_; }
   /// Goes on with the stream behind the first `draws` numbers.
   void go_on_drawing(std::uint64_t draws) { draws_ = draws; }
+
+  /// Returns how long each side has vibrated at time t.
+  [[nodiscard]] std::array<OscillationClock, 4> oscillation_clocks(Real t) const {
+    std::array<OscillationClock, 4> clocks;
+    for (std::size_t k = 0; k < 4; ++k)
+      if (sides_[k].oscillation.present()) clocks[k] = sides_[k].oscillation.clock_at(t);
+    return clocks;
+  }
+  /// Goes on with the vibrations of another engine, at the clock's zero. Returns whether any side does: plans made before are
+  /// void then.
+  bool go_on_oscillating(const std::array<OscillationClock, 4>& before) {
+    bool any = false;
+    for (std::size_t k = 0; k < 4; ++k) any = sides_[k].oscillation.go_on(before[k]) || any;
+    return any;
+  }
 
   /// Left, right, bottom, top at time t; empty where none moves.
   [[nodiscard]] std::vector<WallState> states(Real t) const {
@@ -191,20 +221,27 @@ class Walls {
     Real acceleration = 0;  ///< outward: a load's is negative
     Real t = 0;
     Real restitution = 1;
-    Real mass = 0;             ///< of a piston; 0: no contact moves the side
-    Real sliding = 0;          ///< velocity along itself, towards +x or +y
-    Real vibration = 0;        ///< inward speed with which it hits disks, beside its velocity
-    double temperature = 0.0;  ///< 0: not diffuse
+    Real mass = 0;                      ///< of a piston; 0: no contact moves the side
+    Real sliding = 0;                   ///< velocity along itself, towards +x or +y
+    Real vibration = 0;                 ///< inward speed with which it hits disks, beside its velocity
+    double temperature = 0.0;           ///< 0: not diffuse
+    OscillatingSide<Real> oscillation;  ///< takes the place of the motion above
 
     [[nodiscard]] Real displacement_at(Real when) const {
+      if (oscillation.present()) return oscillation.displacement(when);
       const Real dt = when - t;
       return displacement + (velocity * dt + (acceleration * dt) * (dt / 2));
     }
-    [[nodiscard]] Real velocity_at(Real when) const { return velocity + acceleration * (when - t); }
+    [[nodiscard]] Real velocity_at(Real when) const {
+      return oscillation.present() ? oscillation.velocity(when) : velocity + acceleration * (when - t);
+    }
+    [[nodiscard]] Real acceleration_at(Real when) const {
+      return oscillation.present() ? oscillation.acceleration(when) : acceleration;
+    }
 
     template <class Archive>
     void serialize(Archive& archive) {
-      archive(displacement, velocity, t);
+      archive(displacement, velocity, t, oscillation);
     }
   };
 

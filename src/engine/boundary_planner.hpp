@@ -108,8 +108,9 @@ class BoundaryPlanner {
       for (const int sign : {-1, 1}) {
         const Wall wall = wall_of(axis, sign > 0);
         if (world_.walls.recedes(wall, sign * v, sign * g, expansion, now)) continue;
-        mine.consider_edge(
-            now + world_.walls.contact(wall, flight_.room(a, axis, sign, radius, now), sign * v, sign * g, expansion, now), wall);
+        const double room = flight_.room(a, axis, sign, radius, now);
+        mine.consider_edge(now + world_.walls.contact(wall, room, sign * v, sign * g, expansion, now, mine.edge_time - now),
+                           wall);
       }
     }
     if (!everywhere_) return;

@@ -5,8 +5,10 @@
 #include "core/instant.hpp"
 #include "core/running_totals.hpp"
 #include "effects/andersen.hpp"
+#include "effects/oscillation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -18,7 +20,8 @@ namespace carom {
 struct Continuation {
   Instant now;
   RunningTotals totals;
-  std::uint64_t wall_draws = 0;         ///< from diffuse walls so far
+  std::uint64_t wall_draws = 0;                       ///< from diffuse walls so far
+  std::array<OscillationClock, 4> oscillations = {};  ///< of walls that vibrate
   std::uint64_t thermostat_events = 0;  ///< the number of the next event of the thermostat for which nothing has been drawn
   /// The next event of the thermostat. At another rate it comes at another time, and is drawn anew.
   struct Pending {

@@ -103,7 +103,10 @@ template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::leave(Continuation& continuation) const {
   continuation.now = now();
   continuation.totals = totals_;
-  if constexpr (!World::plain) continuation.wall_draws = world_.walls.draws();
+  if constexpr (!World::plain) {
+    continuation.wall_draws = world_.walls.draws();
+    continuation.oscillations = world_.walls.oscillation_clocks(now_);
+  }
   continuation.bonds.clear();
   if constexpr (!Impact::plain) {
     const auto& potential = impact_.potential();
@@ -118,7 +121,10 @@ template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::take_over(const Continuation& continuation) {
   recorder_.begin_epoch(epoch_ = continuation.now);
   totals_.go_on_from(continuation.totals);
-  if constexpr (!World::plain) world_.walls.go_on_drawing(continuation.wall_draws);
+  if constexpr (!World::plain) {
+    world_.walls.go_on_drawing(continuation.wall_draws);
+    if (world_.walls.go_on_oscillating(continuation.oscillations)) predict_all(), start_queue();
+  }
   if constexpr (!Impact::plain) {
     auto& potential = impact_.potential();
     bool changed = false;

@@ -193,6 +193,7 @@ void TextbookEngine<Real>::leave(Continuation& continuation) const {
   continuation.now = now();
   continuation.totals = totals_;
   continuation.wall_draws = world_.walls.draws();
+  continuation.oscillations = world_.walls.oscillation_clocks(now_);
   leave_bonds(continuation);
 }
 
@@ -201,6 +202,10 @@ void TextbookEngine<Real>::take_over(const Continuation& continuation) {
   epoch_ = continuation.now;
   totals_.go_on_from(continuation.totals);
   world_.walls.go_on_drawing(continuation.wall_draws);
+  if (world_.walls.go_on_oscillating(continuation.oscillations)) {
+    for (std::int32_t i = 0; i < count(); ++i) make_plan(i);
+    fill_queue();
+  }
   take_over_bonds(continuation);
 }
 

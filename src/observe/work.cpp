@@ -156,7 +156,10 @@ class Work final : public SavedObservable<Work>, public ChangeFollower {
       const double given = energies_[side] - totals.wall_energy[side];
       double by_motion = given;
       if (wall.temperature || wall.restitution) {
-        const double outward = wall.vibration ? -*wall.vibration : (side % 2 == 1 ? velocity_[side] : -velocity_[side]);
+        // A sine with restitution is refused (scene/check_walls.cpp): its velocity is another at each contact.
+        const double outward = wall.vibration     ? -*wall.vibration
+                               : wall.oscillation ? -2.0 * wall.oscillation->amplitude * wall.oscillation->frequency
+                                                  : (side % 2 == 1 ? velocity_[side] : -velocity_[side]);
         by_motion = -(totals.wall_impulse[side] - impulses_[side]) * outward -
                     (totals.wall_shear[side] - shears_[side]) * wall.tangential_velocity.value_or(0.0);
       }

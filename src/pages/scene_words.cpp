@@ -38,6 +38,10 @@ std::string words(const WallProperties& wall, int axis) {
   if (wall.tangential_velocity)
     parts.push_back(fmt::format("slides at {:.6g} in {}", *wall.tangential_velocity, axis == 0 ? "y" : "x"));
   if (wall.vibration) parts.push_back(fmt::format("vibrates at speed {:.6g}, without amplitude", *wall.vibration));
+  if (const auto& motion = wall.oscillation)
+    parts.push_back(fmt::format("vibrates as a {} of amplitude {:.6g} and frequency {:.6g}{}",
+                                motion->form == WaveForm::sine ? "sine" : "sawtooth", motion->amplitude, motion->frequency,
+                                motion->phase != 0.0 ? fmt::format(", from phase {:.6g}", motion->phase) : std::string()));
   if (wall.restitution) parts.push_back(fmt::format("restitution {:.6g}", *wall.restitution));
   if (wall.velocity) parts.push_back(fmt::format("moves at {:.6g} in {}", *wall.velocity, axis == 0 ? "x" : "y"));
   return fmt::format("{}", fmt::join(parts, ", "));

@@ -250,6 +250,7 @@ Effects detail::merged(const Effects& one, const Effects& other) {
     take_where_it_lacks(wall.velocity, more.velocity, 0.0);
     take_where_it_lacks(wall.tangential_velocity, more.tangential_velocity, 0.0);
     take_where_it_lacks(wall.vibration, more.vibration, 0.0);
+    if (!(wall.oscillation && wall.oscillation->moves()) && more.oscillation) wall.oscillation = more.oscillation;
     if (!wall.mass) wall.mass = more.mass, wall.load = more.load;
   }
   return both;

@@ -4,10 +4,12 @@
 #include "scene/changes.hpp"
 #include "scene/checks.hpp"
 #include "scene/effect_traits.hpp"
+#include "scene/walls.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -74,6 +76,28 @@ void move_walls(Box& box, const Effects& effects, double time) {
   }
 }
 
+/// Puts a wall that vibrates no more, or otherwise, to where it has come to. One that goes on vibrating is checked from its
+/// start.
+class VibratingWalls {
+ public:
+  /// From `time` on the walls move as `now` says; until then they did as `before` says. Times count from the start of all.
+  void change(Box& box, const Effects& before, const Effects& now, double time) {
+    for (std::size_t w = 0; w < since_.size(); ++w) {
+      const auto &one = before.walls[w].oscillation, &other = now.walls[w].oscillation;
+      if (one == other) continue;
+      const double inward = one ? inward_after(*one, time - since_[w]) : 0.0;
+      if (w % 2 == 0)
+        box.lower[static_cast<Eigen::Index>(w / 2)] += inward;
+      else
+        box.upper[static_cast<Eigen::Index>(w / 2)] -= inward;
+      since_[w] = time;
+    }
+  }
+
+ private:
+  std::array<double, 4> since_{};
+};
+
 bool contact_distances_differ(const Scene& scene, const Effects& now, const Effects& before) {
   const auto delta = [](const Effects& effects, std::int64_t one, std::int64_t other) {
     return effects.non_additivity ? effects.non_additivity->between(one, other) : 0.0;
@@ -88,6 +112,8 @@ bool contact_distances_differ(const Scene& scene, const Effects& now, const Effe
 /// Observables know one flow and one clock.
 void check_observables(const Scene& scene, const Effects& now, const Effects& before, const std::string& path) {
   if (scene.observe.empty()) return;
+  for (std::size_t w = 0; w < now.walls.size(); ++w)
+    if (const std::string why = why_no_work(scene, now, w); !why.empty()) throw Refusal(path, fmt::format("{}: {}", path, why));
   if (contact_distances_differ(scene, now, before))
     throw Refusal(
         path, fmt::format("{} changes [non_additivity], and observables know one contact distance of two species only; remove "
@@ -107,6 +133,8 @@ void check_observables(const Scene& scene, const Effects& now, const Effects& be
 void check_changes(const Scene& scene) {
   Effects now = scene.effects;
   Box box = scene.box;
+  VibratingWalls vibrating;
+  const double equilibrated = scene.run.equilibrate ? scene.run.equilibrate->time.value_or(0.0) : 0.0;
   double since = 0.0;
   const auto until = [&](std::size_t k) -> std::optional<double> {
     return k < scene.changes.size() ? std::optional(scene.changes[k].time) : scene.run.time;
@@ -118,12 +146,12 @@ void check_changes(const Scene& scene) {
     const std::string path = fmt::format("changes.{}", k);
     check_time(scene, k, path);
     check_kind(change, path);
-    move_walls(box, now,
-               change.time - since + (k == 0 && scene.run.equilibrate ? scene.run.equilibrate->time.value_or(0.0) : 0.0));
+    move_walls(box, now, change.time - since + (k == 0 ? equilibrated : 0.0));
     since = change.time;
     const Effects before = now;
     try {
       now = effects_after(before, change);
+      vibrating.change(box, before, now, equilibrated + change.time);
       const std::optional<double> end = until(k + 1);
       Scene stage = stage_of(scene, now, box, end ? std::optional(*end - change.time) : std::nullopt);
       stage.run.equilibrate.reset();

@@ -16,7 +16,7 @@ namespace {
 void check_company(const Scene& scene) {
   for (std::size_t w = 0; w < scene.effects.walls.size(); ++w) {
     const WallProperties& wall = scene.effects.walls[w];
-    const char* kind = wall.mass ? "piston" : wall.velocity.value_or(0.0) != 0.0 ? "moving wall" : nullptr;
+    const char* kind = wall.mass ? "piston" : moves(wall) ? "moving wall" : nullptr;
     if (kind == nullptr) continue;
     throw Refusal("growth",
                   fmt::format("[growth] and the {} walls.{} cannot be combined; remove one of the two", kind, wall_names[w]));

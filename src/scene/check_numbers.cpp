@@ -96,6 +96,12 @@ void check_wall(const std::string& path, const WallProperties& wall) {
   require(path, wall.velocity, keys::wall_velocity);
   require(path, wall.tangential_velocity, keys::tangential_velocity);
   require(path, wall.vibration, keys::vibration);
+  if (wall.oscillation) {
+    const std::string table = path + ".vibration";
+    require(table, wall.oscillation->amplitude, keys::oscillation_amplitude);
+    require(table, wall.oscillation->frequency, keys::oscillation_frequency);
+    require(table, wall.oscillation->phase, keys::oscillation_phase);
+  }
   require(path, wall.mass, keys::piston_mass);
   require(path, wall.load, keys::piston_load);
 }

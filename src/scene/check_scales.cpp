@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -95,6 +96,12 @@ std::vector<Drive> drives_of(const Scene& scene, const Sizes& sizes) {
       put(path + ".tangential_velocity", *wall.tangential_velocity, speed, speed, 1, true);
     }
     if (wall.vibration) put(path + ".vibration", *wall.vibration, *wall.vibration, *wall.vibration, 1, true);
+    if (wall.oscillation) {
+      const Oscillation& motion = *wall.oscillation;
+      const long double way = motion.form == WaveForm::sine ? 2.0L * std::numbers::pi_v<long double> : 2.0L;
+      const long double speed = way * motion.amplitude * motion.frequency;
+      if (motion.moves()) put(path + ".vibration.frequency", motion.frequency, speed, speed, 1, true);
+    }
     if (wall.temperature)
       from_energy(path + ".temperature", *wall.temperature, *wall.temperature, sizes.lightest, sizes.heaviest);
     if (wall.mass && wall.load)  // what it gives a disk that it pushes through the box

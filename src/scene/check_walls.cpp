@@ -1,5 +1,6 @@
 // Walls with properties stand where the box has walls, and moving ones leave room for the disks and for what stands in the box.
 
+#include "core/oscillating_fall_time.hpp"
 #include "scene/checks.hpp"
 #include "scene/fixed_shapes.hpp"
 #include "scene/number_keys.hpp"
@@ -8,8 +9,42 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
-namespace carom::detail {
+namespace carom {
+
+namespace {
+
+/// Returns the motion of a wall, inward as up, from where a period has it in the middle of its way.
+OscillatingFloor<double> floor_of(const Oscillation& motion) {
+  return {motion.amplitude, motion.frequency, motion.phase, motion.form == WaveForm::sawtooth};
+}
+
+}  // namespace
+
+double inward_after(const Oscillation& oscillation, double time) {
+  if (!oscillation.moves()) return 0.0;
+  const OscillatingFloor<double> floor = floor_of(oscillation);
+  return floor.height(time) - floor.height(0.0);
+}
+
+double inward_reach(const Oscillation& oscillation) {
+  return oscillation.moves() ? oscillation.amplitude - floor_of(oscillation).height(0.0) : 0.0;
+}
+
+double joint_reach(const std::optional<Oscillation>& one, const std::optional<Oscillation>& other) {
+  const auto reach = [](const std::optional<Oscillation>& wall) { return wall ? inward_reach(*wall) : 0.0; };
+  const bool in_step = one && other && one->moves() && other->moves() && one->frequency == other->frequency &&
+                       one->form == WaveForm::sine && other->form == WaveForm::sine;
+  if (!in_step) return reach(one) + reach(other);
+  // Two sines of one frequency add up to a sine.
+  const SineAndCosine<double> a = sine_and_cosine(one->phase), b = sine_and_cosine(other->phase);
+  const double sine = one->amplitude * a.sine + other->amplitude * b.sine;
+  const double cosine = one->amplitude * a.cosine + other->amplitude * b.cosine;
+  return std::sqrt(sine * sine + cosine * cosine) - sine;
+}
+
+namespace detail {
 namespace {
 
 std::string path_of(std::size_t wall) { return fmt::format("walls.{}", wall_names[wall]); }
@@ -23,10 +58,13 @@ void check_kind(const WallProperties& wall, const std::string& path) {
     refuse_both("temperature", "restitution", "a wall that draws velocities anew has no restitution");
   if (wall.temperature && wall.mass) refuse_both("temperature", "mass", "a wall that draws velocities anew cannot be a piston");
   if (wall.velocity && wall.mass) refuse_both("velocity", "mass", "a piston moves as it is pushed");
-  if (wall.vibration && wall.temperature)
-    refuse_both("temperature", "vibration", "a wall that draws velocities anew does not reflect");
-  if (wall.vibration && wall.velocity) refuse_both("velocity", "vibration", "a wall that vibrates stays where it is");
-  if (wall.vibration && wall.mass) refuse_both("vibration", "mass", "a piston moves as it is pushed");
+  const bool vibrates = wall.vibration || wall.oscillation;
+  if (vibrates && wall.temperature) refuse_both("temperature", "vibration", "a wall that draws velocities anew does not reflect");
+  if (vibrates && wall.velocity)
+    refuse_both("velocity", "vibration", wall.vibration ? "a wall that vibrates stays where it is" : "a wall has one motion");
+  if (vibrates && wall.mass) refuse_both("vibration", "mass", "a piston moves as it is pushed");
+  if (wall.vibration && wall.oscillation)
+    refuse_both("vibration", "oscillation", "a wall vibrates with an amplitude or without one");
   if (wall.tangential_velocity && !wall.temperature)
     throw Refusal(path,
                   fmt::format("{} has tangential_velocity but no temperature; disks do not notice that a smooth wall slides, "
@@ -50,6 +88,22 @@ std::size_t faster_inward(const Effects& effects, std::size_t lower) {
   return velocity_of(effects.walls[lower]) >= -velocity_of(effects.walls[lower + 1]) ? lower : lower + 1;
 }
 
+/// Walls that vibrate may come together far before the end, so the run has to leave room for it at any time.
+void check_vibrating_gap(const Scene& scene, int axis) {
+  const std::size_t lower = 2 * static_cast<std::size_t>(axis);
+  const auto& walls = scene.effects.walls;
+  const double reach = joint_reach(walls[lower].oscillation, walls[lower + 1].oscillation);
+  if (!(reach > 0.0)) return;
+  const double closing = std::max(velocity_of(walls[lower]) - velocity_of(walls[lower + 1]), 0.0) * duration(scene.run);
+  const double diameter = 2.0 * radii_of(scene).largest, gap = scene.box.lengths()[axis] - closing - reach;
+  if (gap > 0.0 && gap >= diameter) return;
+  const std::size_t wall = walls[lower].oscillation ? lower : lower + 1;
+  throw Refusal(path_of(wall) + ".vibration",
+                fmt::format("with their vibration the walls would leave {:.6g} between {} and {}, but the largest disk is {:.6g} "
+                            "across; make the amplitude smaller, or the box larger",
+                            gap, wall_names[lower], wall_names[lower + 1], diameter));
+}
+
 void check_gap(const Scene& scene, int axis) {
   const std::size_t lower = 2 * static_cast<std::size_t>(axis);
   const double closing = velocity_of(scene.effects.walls[lower]) - velocity_of(scene.effects.walls[lower + 1]);
@@ -65,6 +119,24 @@ void check_gap(const Scene& scene, int axis) {
       fmt::format("by time {:.6g} the moving walls would leave {:.6g} between {} and {}, but the largest disk is {:.6g} "
                   "across; make walls.{} slower, or end before time {:.6g}",
                   time, gap, wall_names[lower], wall_names[lower + 1], diameter, wall_names[wall], room));
+}
+
+void check_vibrating_sweep(const Scene& scene, std::size_t w) {
+  const WallProperties& wall = scene.effects.walls[w];
+  if (!wall.oscillation || !wall.oscillation->moves()) return;
+  const int axis = axis_of_wall(w);
+  const double reach = inward_reach(*wall.oscillation);
+  const std::vector<Obstacle>& shapes = scene.effects.obstacles;
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    const Rectangle bounds = bounds_of(shapes[k]);
+    const double room = w % 2 == 1 ? scene.box.upper[axis] - bounds.upper[axis] : bounds.lower[axis] - scene.box.lower[axis];
+    if (reach <= room) continue;
+    throw Refusal(
+        path_of(w) + ".vibration",
+        fmt::format("walls.{} comes {:.6g} inward in each period and would run into {}, which is {:.6g} from it; make the "
+                    "amplitude smaller",
+                    wall_names[w], reach, path_of_shape(scene.effects, k), room));
+  }
 }
 
 void check_sweep(const Scene& scene, std::size_t w) {
@@ -86,6 +158,16 @@ void check_sweep(const Scene& scene, std::size_t w) {
 
 }  // namespace
 
+std::string why_no_work(const Scene& scene, const Effects& effects, std::size_t w) {
+  const WallProperties& wall = effects.walls[w];
+  if (!wall.restitution || !wall.oscillation || !wall.oscillation->moves() || wall.oscillation->form != WaveForm::sine) return {};
+  if (std::ranges::none_of(scene.observe, [](const ObservableRequest& request) { return request.name == "work"; })) return {};
+  return fmt::format(
+      "walls.{} has restitution and vibrates as a sine, so observe.work cannot tell its work from its heat; remove "
+      "restitution or observe.work",
+      wall_names[w]);
+}
+
 void check_walls(const Scene& scene) {
   for (std::size_t w = 0; w < scene.effects.walls.size(); ++w) {
     const WallProperties& wall = scene.effects.walls[w];
@@ -102,10 +184,15 @@ void check_walls(const Scene& scene) {
                                 "take boundary.{} = \"walls\"",
                                 wall_names[w], axis_names[axis], axis_names[axis]));
     }
+    if (const std::string why = why_no_work(scene, scene.effects, w); !why.empty()) throw Refusal(path_of(w), why);
     check_sweep(scene, w);
+    check_vibrating_sweep(scene, w);
   }
-  check_gap(scene, 0);
-  check_gap(scene, 1);
+  for (const int axis : {0, 1}) {
+    check_gap(scene, axis);
+    check_vibrating_gap(scene, axis);
+  }
 }
 
-}  // namespace carom::detail
+}  // namespace detail
+}  // namespace carom

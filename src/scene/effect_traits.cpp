@@ -137,6 +137,19 @@ std::vector<EffectTraits> make_table() {
        .conserves_energy = false,
        .why_no_Z = "walls give energy",
        .why_no_path = "walls change speeds between two collisions"},
+      {.name = "oscillating_walls",
+       .title = "a wall that vibrates with an amplitude",
+       .absence = special_walls,
+       .is_present = has_wall<&WallProperties::oscillation>,
+       .acts =
+           [](const Effects& e) {
+             return std::ranges::any_of(e.walls,
+                                        [](const WallProperties& wall) { return wall.oscillation && wall.oscillation->moves(); });
+           },
+       .conserves_energy = false,
+       .why_no_Z = "walls give energy",
+       .why_no_replay = "between samples a wall vibrates, which the event log does not hold",
+       .why_no_path = "walls change speeds between two collisions"},
       {.name = "moving_walls",
        .title = "a moving wall",
        .absence = special_walls,
@@ -346,6 +359,7 @@ std::vector<EffectTraits> make_table() {
                     {"gravity"},
                     {"thermal_walls"},
                     {"vibrating_walls"},
+                    {"oscillating_walls"},
                     {"moving_walls"},
                     {"pistons"},
                     {"growth"},

@@ -72,6 +72,10 @@ inline constexpr NumberKey wall_temperature{"temperature", "{ temperature = 2.0 
 inline constexpr NumberKey wall_velocity{"velocity", "{ velocity = -0.1 }"};
 inline constexpr NumberKey tangential_velocity{"tangential_velocity", "{ temperature = 1.0, tangential_velocity = 0.5 }"};
 inline constexpr NumberKey vibration{"vibration", "{ vibration = 0.5 }", Range::zero_or_more};
+inline constexpr std::string_view oscillation_example = R"({ form = "sine", amplitude = 0.1, frequency = 2.0 })";
+inline constexpr NumberKey oscillation_amplitude{"amplitude", oscillation_example, Range::zero_or_more};
+inline constexpr NumberKey oscillation_frequency{"frequency", oscillation_example, Range::zero_or_more};
+inline constexpr NumberKey oscillation_phase{"phase", "phase = 0.25", Range::within, 0.0, 1.0};
 inline constexpr NumberKey piston_mass{"mass", "{ mass = 10.0, load = 5.0 }", Range::above_zero};
 inline constexpr NumberKey piston_load{"load", "{ mass = 10.0, load = 5.0 }", Range::zero_or_more};
 

@@ -123,6 +123,18 @@ Collision read_collision(const toml::table& node) {
 
 namespace {
 
+Oscillation read_oscillation(const toml::table& node, const std::string& path) {
+  const TableReader table(node, path, {"form", "amplitude", "frequency", "phase"});
+  const std::string kinds = R"("sine" or "sawtooth" (inward at constant velocity, and back at once))";
+  const toml::node& form = table.require("form", "choose " + kinds);
+  const auto* name = form.as_string();
+  if (name == nullptr || (name->get() != "sine" && name->get() != "sawtooth")) refuse(form, table.path("form"), kinds);
+  return {.form = name->get() == "sine" ? WaveForm::sine : WaveForm::sawtooth,
+          .amplitude = table.required_number(keys::oscillation_amplitude),
+          .frequency = table.required_number(keys::oscillation_frequency),
+          .phase = table.number(keys::oscillation_phase).value_or(0.0)};
+}
+
 WallProperties read_wall(const toml::table& node, const std::string& path) {
   const TableReader table(node, path,
                           {"restitution", "temperature", "velocity", "tangential_velocity", "vibration", "mass", "load"});
@@ -131,7 +143,10 @@ WallProperties read_wall(const toml::table& node, const std::string& path) {
   wall.temperature = table.number(keys::wall_temperature);
   wall.velocity = table.number(keys::wall_velocity);
   wall.tangential_velocity = table.number(keys::tangential_velocity);
-  wall.vibration = table.number(keys::vibration);
+  if (const toml::node* vibration = table.find("vibration"); vibration != nullptr && vibration->is_table())
+    wall.oscillation = read_oscillation(*vibration->as_table(), table.path("vibration"));
+  else
+    wall.vibration = table.number(keys::vibration);
   wall.mass = table.number(keys::piston_mass);
   wall.load = table.number(keys::piston_load);
   if (node.empty()) {

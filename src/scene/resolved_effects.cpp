@@ -37,6 +37,10 @@ std::string wall(const char* name, const WallProperties& wall) {
   put("velocity", wall.velocity);
   put("tangential_velocity", wall.tangential_velocity);
   put("vibration", wall.vibration);
+  if (const auto& motion = wall.oscillation)
+    entries.push_back(fmt::format("vibration = {{ form = \"{}\", amplitude = {}, frequency = {}, phase = {} }}",
+                                  motion->form == WaveForm::sine ? "sine" : "sawtooth", number_text(motion->amplitude),
+                                  number_text(motion->frequency), number_text(motion->phase)));
   put("mass", wall.mass);
   put("load", wall.load);
   return fmt::format("{} = {{ {} }}\n", name, fmt::join(entries, ", "));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 
 namespace carom {
 
@@ -15,9 +16,19 @@ inline constexpr std::array<const char*, 4> wall_names = {"left", "right", "bott
 constexpr int axis_of_wall(std::size_t wall) { return static_cast<int>(wall / 2); }
 
 /// Returns whether a wall can be anywhere but where the scene puts it.
-inline bool moves(const WallProperties& wall) { return wall.mass || wall.velocity.value_or(0.0) != 0.0; }
+inline bool moves(const WallProperties& wall) {
+  return wall.mass || wall.velocity.value_or(0.0) != 0.0 || (wall.oscillation && wall.oscillation->moves());
+}
 /// Returns whether the scene lets this wall move, even if its velocity is 0.
-inline bool may_move(const WallProperties& wall) { return wall.mass || wall.velocity; }
+inline bool may_move(const WallProperties& wall) { return wall.mass || wall.velocity || wall.oscillation; }
+
+/// Returns how far inward of its start a wall is that has vibrated for some time, to the rounding of doubles.
+double inward_after(const Oscillation& oscillation, double time);
+/// Returns how far inward of its start a wall that vibrates comes. length, >= 0.
+double inward_reach(const Oscillation& oscillation);
+/// Returns how far two walls that face each other and vibrate come towards each other from where they start, as far as that
+/// depends on their amplitudes. length, >= 0.
+double joint_reach(const std::optional<Oscillation>& one, const std::optional<Oscillation>& other);
 
 /// Returns whether one of the four walls at least has a property.
 template <class Property>

@@ -6,6 +6,7 @@
 #include "scene/changes.hpp"
 #include "scene/effect_traits.hpp"
 #include "scene/listed_disks.hpp"
+#include "scene/walls.hpp"
 #include "simulation/catalogue.hpp"
 #include "simulation/parts.hpp"
 #include "simulation/start.hpp"
@@ -44,7 +45,7 @@ void settle(Scene& scene, State& state) {
   for (std::size_t k = 0; k < state.walls.size(); ++k) {
     const WallProperties& wall = scene.effects.walls[k];
     const auto axis = static_cast<Eigen::Index>(k / 2);
-    if (wall.mass || wall.velocity.value_or(0.0) != 0.0 || scene.box.periodic(static_cast<int>(axis))) continue;
+    if (moves(wall) || scene.box.periodic(static_cast<int>(axis))) continue;
     (k % 2 == 0 ? scene.box.lower : scene.box.upper)[axis] = state.walls[k].position;
   }
   if (detail::any_acting(scene.effects, &detail::EffectTraits::changes_radii)) return;

@@ -3,6 +3,7 @@
 #include "scene/effect_traits.hpp"
 #include "scene/mean_flow.hpp"
 #include "scene/refusal.hpp"
+#include "scene/walls.hpp"
 
 #include <fmt/format.h>
 
@@ -73,8 +74,7 @@ void add_flow(const Scene& scene, Start& start) {
 /// The walls of a state that may come from another scene: those that stand here stand where the box has them, and those of a
 /// velocity of their own have it.
 std::vector<WallState> walls_from(const Scene& scene, const std::vector<WallState>& given) {
-  const auto moves = [](const WallProperties& wall) { return wall.mass || wall.velocity.value_or(0.0) != 0.0; };
-  if (given.size() != 4 || std::ranges::none_of(scene.effects.walls, moves)) return {};
+  if (given.size() != 4 || !any_wall(scene.effects, moves)) return {};
   std::vector<WallState> walls;
   for (std::size_t k = 0; k < 4; ++k) {
     const WallProperties& wall = scene.effects.walls[k];

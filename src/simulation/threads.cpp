@@ -1,6 +1,7 @@
 #include <carom/threads.hpp>
 
 #include "scene/effect_traits.hpp"
+#include "scene/walls.hpp"
 #include "simulation/catalogue.hpp"
 #include "simulation/parts.hpp"
 
@@ -66,7 +67,7 @@ std::string why_not_threads(const Effects& effects, const Disks& disks) {
       return "sizes differ so much that a disk may have too many others within reach of the potential";
   }
   for (const WallProperties& wall : effects.walls) {
-    if (wall.mass || wall.velocity.value_or(0.0) != 0.0) return "a wall moves";
+    if (moves(wall)) return "a wall moves";
     if (wall.temperature) return "a wall with a temperature draws the velocities of all disks in one order";
   }
   return {};

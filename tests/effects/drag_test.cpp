@@ -249,6 +249,7 @@ TEST(Drag, IsRefusedWithWhatItCannotActWith) {
   expect("gravity", [](Effects& e) { e.gravity = Gravity{{0.0, -1.0}}; });
   expect("thermal_walls", [](Effects& e) { e.walls[1].temperature = 1.0; });
   expect("vibrating_walls", [](Effects& e) { e.walls[1].vibration = 1e-3; });
+  expect("oscillating_walls", [](Effects& e) { e.walls[1].oscillation = Oscillation{WaveForm::sine, 1e-3, 1.0}; });
   expect("moving_walls", [](Effects& e) { e.walls[1].velocity = 1e-3; });
   expect("pistons", [](Effects& e) { e.walls[1].mass = 1.0, e.walls[1].load = 1.0; });
   expect("growth", [](Effects& e) { e.growth = Growth{.rate = 1e-3, .reduced_pressure = 10.0}; });
@@ -257,7 +258,7 @@ TEST(Drag, IsRefusedWithWhatItCannotActWith) {
   expect("brownian", [](Effects& e) { e.brownian = Brownian{1.0, 0.1}; });
   expect("square_well", [](Effects& e) { e.square_well = SquareWell{1.1, 0.1}; });
   expect("stepped_potential", [](Effects& e) { e.stepped_potential = SteppedPotential{{{1.1, 0.1}}}; });
-  EXPECT_EQ(drag.excludes.size(), 14U);  // these, and shear, which has no walls
+  EXPECT_EQ(drag.excludes.size(), 15U);  // these, and shear, which has no walls
   Scene equilibrated = scene;
   equilibrated.run.equilibrate = Run::Equilibrate{1.0, {}};
   EXPECT_EQ(

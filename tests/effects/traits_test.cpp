@@ -41,6 +41,10 @@ const std::map<std::string, std::function<void(Effects&)>> other_effects = {
     {"thermal_walls", [](Effects& e) { e.walls[0].temperature = 2.0; }},
     {"sliding_walls", [](Effects& e) { e.walls[0] = {.temperature = 2.0, .tangential_velocity = 1.0}; }},
     {"vibrating_walls", [](Effects& e) { e.walls[1].vibration = 0.25; }},
+    {"oscillating_walls",
+     [](Effects& e) {
+       e.walls[1].oscillation = Oscillation{WaveForm::sine, 0.25, 1.0};
+     }},
     {"moving_walls", [](Effects& e) { e.walls[1].velocity = -0.25; }},
     {"pistons", [](Effects& e) { e.walls[3] = {.mass = 1e6, .load = 1.0}; }},
     {"stepped_potential",

@@ -72,6 +72,8 @@ std::vector<Neutral> with_neutral_effects(const Scene& scene) {
     if (scene.box.periodic(static_cast<int>(wall / 2)) || properties.temperature) continue;
     if (!properties.restitution) add("wall restitution", [&](Effects& e) { e.walls[wall].restitution = 1.0; });
     if (!properties.velocity && !properties.mass) add("wall velocity", [&](Effects& e) { e.walls[wall].velocity = 0.0; });
+    if (!properties.velocity && !properties.mass && !properties.vibration && !properties.oscillation)
+      add("wall oscillation", [&](Effects& e) { e.walls[wall].oscillation = Oscillation{WaveForm::sine, 0.0, 1.0}; });
   }
   for (const detail::EffectTraits& effect : detail::all_effects())
     if (!effect.numbers.empty() && !effect.is_present(effects))

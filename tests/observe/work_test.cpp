@@ -96,6 +96,9 @@ TEST(Work, OfOtherEffectsAddsUpToo) {
   expect_sum(
       observed("[collision]\nrule = \"specular\"\nrestitution = 0.9\n[walls]\nbottom = { vibration = 0.5 }\ntop = { restitution "
                "= 0.8 }\n"));
+  expect_sum(observed(specular +
+                      "[walls]\nbottom = { vibration = { form = \"sine\", amplitude = 0.1, frequency = 2.0 } }\n"
+                      "top = { vibration = { form = \"sawtooth\", amplitude = 0.1, frequency = 2.0 }, restitution = 0.8 }\n"));
   expect_sum(observed(specular + "[thermostat]\ntemperature = 2\nrate = 0.5\n"));
   expect_sum(observed(specular + "[brownian]\ntemperature = 2\nrate = 0.5\n"));
   expect_sum(observed("[collision]\nrule = \"specular\"\nroughness = 0.5\n[growth]\nrate = 0.01\n"));

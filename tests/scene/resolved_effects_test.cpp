@@ -129,7 +129,13 @@ class EffectsMaker {
       const auto put = [&](const char* key, double value) { entries += (entries.empty() ? "" : ", ") + entry(key, value); };
       if (kind == 0) put("temperature", moderate_positive_double());
       if (kind == 0 && maybe()) put("tangential_velocity", moderate_double());
-      if (kind == 4) put("vibration", std::abs(moderate_double()));
+      if (kind == 4 && maybe())
+        put("vibration", std::abs(moderate_double()));
+      else if (kind == 4)
+        entries += std::string("vibration = { form = ") + (maybe() ? "\"sine\", " : "\"sawtooth\", ") +
+                   entry("amplitude", 0.01 + 0.1 * unit_interval()) + ", " + entry("frequency", 0.5 + unit_interval()) +
+                   (maybe() ? ", " + entry("phase", unit_interval()) : "") + " }",
+            moving_ = true;
       if (kind != 0 && (kind == 1 || maybe())) put("restitution", unit_interval());
       if (kind == 2 || (kind == 0 && maybe())) put("velocity", 0.2 * unit_interval() - 0.1), moving_ = true;
       if (kind == 3) put("mass", 0.5 + unit_interval()), put("load", std::abs(moderate_double())), moving_ = true;

@@ -53,7 +53,8 @@ inline std::string first_difference(const Effects& a, const Effects& b) {
     const WallProperties &x = a.walls[w], &y = b.walls[w];
     if (!same_bits(x.restitution, y.restitution) || !same_bits(x.temperature, y.temperature) ||
         !same_bits(x.velocity, y.velocity) || !same_bits(x.tangential_velocity, y.tangential_velocity) ||
-        !same_bits(x.vibration, y.vibration) || !same_bits(x.mass, y.mass) || !same_bits(x.load, y.load)) {
+        !same_bits(x.vibration, y.vibration) || x.oscillation != y.oscillation || !same_bits(x.mass, y.mass) ||
+        !same_bits(x.load, y.load)) {
       return "walls." + std::to_string(w);
     }
   }

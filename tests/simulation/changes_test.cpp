@@ -64,6 +64,20 @@ std::vector<Change> changes() {
       {"WallSetInMotion", nothing, [](Effects& e) { e.walls[1].velocity = 0.05; }},
       {"WallTurnedRound", [](Effects& e) { e.walls[1].velocity = 0.2; }, [](Effects& e) { e.walls[1].velocity = -0.1; }},
       {"WallStopped", [](Effects& e) { e.walls[1].velocity = 0.2; }, [](Effects& e) { e.walls[1].velocity = 0.0; }},
+      {"WallBeginsToVibrate", nothing,
+       [](Effects& e) {
+         e.walls[2].oscillation = Oscillation{WaveForm::sine, 0.1, 2.0, 0.25};
+       }},
+      {"WallVibratesOtherwise",
+       [](Effects& e) {
+         e.walls[2].oscillation = Oscillation{WaveForm::sine, 0.1, 2.0};
+       },
+       [](Effects& e) { e.walls[2].oscillation->form = WaveForm::sawtooth; }},
+      {"WallStopsVibrating",
+       [](Effects& e) {
+         e.walls[2].oscillation = Oscillation{WaveForm::sawtooth, 0.1, 2.2};
+       },
+       [](Effects& e) { e.walls[2].oscillation.reset(); }},
       {"Piston", nothing, [](Effects& e) { e.walls[3] = {.mass = 5.0, .load = 1.0}; }},
       {"PistonLoad", [](Effects& e) { e.walls[3] = {.mass = 5.0, .load = 1.0}; }, [](Effects& e) { e.walls[3].load = 2.0; }},
       {"PistonHeld", [](Effects& e) { e.walls[3] = {.mass = 5.0, .load = 1.0}; }, [](Effects& e) { e.walls[3] = {}; }},
