@@ -128,9 +128,10 @@ class MpiProcesses final : public Processes {
     std::atomic<std::int64_t>& since_;
   };
 
-  /// Calls done() until it says so. MPI would wait with a processor at full speed; after a tenth of a millisecond somebody else
-  /// may need that. It sleeps then, and neither it nor MPI yields: a scheduler lets a sleeper that wakes come before those that
-  /// have run all the time, and one that yields after them, at every message.
+  /// Calls done() until it says so. MPI would wait with a processor at full speed; soon somebody else may need that, perhaps the
+  /// process that is waited for. It sleeps then, and neither it nor MPI yields: a scheduler lets a sleeper that wakes come before
+  /// those that have run all the time, and one that yields after them, at every message. Sleeps are short, since a long message
+  /// takes several calls on both sides.
   template <class Done>
   void poll(Done&& done) {
     using namespace std::chrono_literals;
@@ -138,7 +139,7 @@ class MpiProcesses final : public Processes {
     const Clock::time_point began = Clock::now();
     while (!done()) {
       const Clock::duration waited = Clock::now() - began;
-      if (waited > 100us) std::this_thread::sleep_for(std::clamp<Clock::duration>(waited / 4, 50us, 1ms));
+      if (waited > 20us) std::this_thread::sleep_for(waited < 200ms ? 20us : 500us);
     }
   }
   void wait(std::vector<MPI_Request>& requests) {
