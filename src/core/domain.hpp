@@ -51,6 +51,12 @@ struct Domain {
     return true;
   }
 
+  /// Which axes are periodic is not among it: walls move, boundaries stay what they are.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(lower[0], lower[1], upper[0], upper[1], length[0], length[1]);
+  }
+
  private:
   [[nodiscard]] bool inside(const Vec2<Real>& position, int a) const { return position[a] >= lower[a] && position[a] < upper[a]; }
 };

@@ -149,7 +149,7 @@ class CellGrid {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(count_[0], count_[1], width_[0], width_[1], sliding_, slid_least_, slid_most_, first_, places_);
+    archive(domain_, count_[0], count_[1], width_[0], width_[1], sliding_, slid_least_, slid_most_, first_, places_);
   }
 
  private:
