@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -71,6 +72,28 @@ TEST(Circle, ADiskKeepsItsAngularMomentumAndItsChord) {
     }
     EXPECT_THAT(simulation.check_invariants(1e-12), testing::IsEmpty()) << engine;
   }
+}
+
+// Of starts anywhere in any direction a disk meets the rim P / (pi A) times per path: the mean chord is pi A / P, pi R / 2 of a
+// circle. Each has chords of one length, which its angular momentum gives, and the number of its bounces is exact.
+TEST(Circle, TheMeanChordIsPiTimesTheAreaOverThePerimeter) {
+  constexpr double radius = 0.75, time = 60.0;
+  constexpr std::uint64_t starts = 2000;
+  double sum = 0.0, squares = 0.0;
+  for (std::uint64_t seed = 1; seed <= starts; ++seed) {
+    Scene scene = in_circle(1.0, {species_of(1, 0.25, 1.0, RandomPositions{}, FixedSpeed{1.0})});
+    scene.run.seed = seed;
+    Simulation simulation = make_simulation(scene);
+    const double b = momentum_about_middle(simulation), chord = 2.0 * std::sqrt(radius * radius - b * b);
+    simulation.run_until(time);
+    const auto bounces = static_cast<double>(simulation.counts().obstacle);
+    EXPECT_NEAR(bounces * chord, time, chord * (1.0 + 1e-9)) << seed;
+    sum += bounces / time, squares += bounces / time * bounces / time;
+  }
+  const auto count = static_cast<double>(starts);
+  const double mean = sum / count, error = std::sqrt((squares / count - mean * mean) / count);
+  EXPECT_LT(error, 0.02 * mean);
+  EXPECT_NEAR(mean, 2.0 / (std::numbers::pi * radius), 5.0 * error);
 }
 
 /// The number of bounces in chords of that length along the rim until `time`, which are all of the log.
