@@ -2,10 +2,12 @@
 """Has clang-tidy look at many files at once: it spends most of its time on headers, which are then the same for all of them.
 
     tidy_units.py SOURCE_DIR BUILD_DIR [PATTERN]
+    tidy_units.py --alone BUILD_DIR UNIT...
 
 Reads BUILD_DIR/compile_commands.json. Writes into BUILD_DIR/together units, each of which includes many files, and a
 compile_commands.json of theirs; of files whose path matches PATTERN alone, where it is given. Files of the product share
-a unit, unless they give one name to two things. Tests are copied, each into a namespace of its own.
+a unit, unless they give one name to two things. Tests are copied, each into a namespace of its own. With --alone, takes units
+apart that do not compile: a name of one file can still hide another one, which no other part of the build would notice.
 """
 import json
 import re
@@ -24,6 +26,7 @@ UNITS = {"product": 6, "tests": 4}
 # What a file defines in its anonymous namespaces, as its layout tells; and its macros.
 ALIAS = re.compile(r"(?:template\s*<.*>\s*)?using\s+(\w+)\s*=.*")
 TYPE = re.compile(r"(?:template\s*<.*>\s*)?(?:struct|class|enum class|enum|union|concept)\s+(\w+)\b(?!::)")
+TYPE_OF_HEADER = r"^(?:template\s*<.*>\s*)?(?:struct|class|enum class|using)(?: alignas\(\w+\))? (\w+)"
 TAKEN = re.compile(r"using\s+[\w:]*::(\w+);")
 OTHER = re.compile(r"(?!using|return|namespace|static_assert|struct|class|enum|[A-Z_]+\()[^=({;]*?(?<![:\w])(\w+)\s*[(={;\[]")
 MACRO = re.compile(r"#define\s+(\w+)")
@@ -93,7 +96,25 @@ def apart(path, source, together):
     return copy
 
 
+def take_apart(together, units):
+    """Writes a unit for each file of some units, and a compile_commands.json of these, into a directory of their own."""
+    alone, database = together / "alone", []
+    shutil.rmtree(alone, ignore_errors=True)
+    alone.mkdir()
+    for entry in json.loads((together / "compile_commands.json").read_text()):
+        unit = Path(entry["file"])
+        if unit.name in units:
+            for k, path in enumerate(re.findall(r'#include "(.*)"', unit.read_text())):
+                file = alone / f"{unit.stem}_{k}.cpp"
+                file.write_text(f'#include "{path}"\n')
+                database.append(entry | {"file": str(file), "arguments": [*entry["arguments"][:-1], str(file)]})
+    (alone / "compile_commands.json").write_text(json.dumps(database, indent=1))
+
+
 def main():
+    if sys.argv[1] == "--alone":
+        take_apart(Path(sys.argv[2]) / "together", sys.argv[3:])
+        return
     source, build = Path(sys.argv[1]), Path(sys.argv[2])
     wanted = re.compile(sys.argv[3] if len(sys.argv) > 3 else "")
     together = build / "together"
@@ -101,7 +122,7 @@ def main():
     together.mkdir()
     units, seen = {kind: [Unit() for _ in range(count)] for kind, count in UNITS.items()}, set()
     headers = [header for folder in ("include", "src", "bench") for header in (source / folder).rglob("*.hpp")]
-    of_headers = {match[1] for header in headers for match in re.finditer(r"^(?:struct|class|enum class|using) (\w+)", header.read_text(), re.M)}
+    of_headers = {match[1] for header in headers for match in re.finditer(TYPE_OF_HEADER, header.read_text(), re.M)}
     entries = json.loads((build / "compile_commands.json").read_text())
     # make_fast.cpp, which says that engines are instantiated elsewhere, has to come before what instantiates them.
     for entry in sorted(entries, key=lambda entry: "/make_" not in entry["file"]):

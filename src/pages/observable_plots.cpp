@@ -287,7 +287,7 @@ Series series_of(const Table& table, const Column& x, const Column& y, std::stri
   return series;
 }
 
-std::string name_of(const Columns& columns, const Column& column, bool alone) {
+std::string label_of(const Columns& columns, const Column& column, bool alone) {
   const std::string suffix = column.name.substr(std::string_view(columns.values).size());
   if (*columns.name != '\0') return columns.name + suffix;
   if (suffix.empty()) return alone ? "measured" : "all disks";
@@ -315,7 +315,7 @@ Plot plot_of(const Frame& frame, const Table& table, const RunTheory& theory) {
           plot.marks.push_back(
               {.axis = mark.on_first_column ? Mark::Across::x : Mark::Across::y, .value = mark.value, .label = mark.label});
       }
-      plot.series.push_back(series_of(table, *x, *column, name_of(columns, *column, found.size() == 1), group));
+      plot.series.push_back(series_of(table, *x, *column, label_of(columns, *column, found.size() == 1), group));
       for (TheoryCurve& curve : theory.curves(table, column->name)) {
         Series law{.name = std::move(curve.name),
                    .x = std::move(curve.x),

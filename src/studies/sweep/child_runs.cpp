@@ -64,7 +64,7 @@ class Child {
     pollfd wanted{.fd = errors_[0], .events = POLLIN, .revents = 0};
     if (poll(&wanted, 1, milliseconds) <= 0) return true;
     std::array<char, 4096> bytes{};
-    const ssize_t count = read(errors_[0], bytes.data(), bytes.size());
+    const ssize_t count = ::read(errors_[0], bytes.data(), bytes.size());
     if (count > 0) said_.append(bytes.data(), static_cast<std::size_t>(count));
     constexpr std::size_t most = 65536;
     if (said_.size() > most) said_.erase(0, said_.size() - most);
