@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <sstream>
 
 namespace carom::test {
 namespace {
@@ -245,14 +244,7 @@ TEST(ForceAlongAPeriodicAxis, ARunThatIsSavedGoesOnToTheSameBits) {
   for (const char* engine : engines_with_effects) {
     Scene scene = channel_gas(0.5);
     scene.effects.gravity = Gravity{{0.2, -0.1}};
-    Simulation whole = make_simulation(scene, engine), begun = make_simulation(scene, engine);
-    whole.run_until(20.0);
-    begun.run_until(20.0);
-    std::stringstream bytes;
-    begun.save(bytes);
-    Simulation restored = restore_simulation(scene, bytes);
-    whole.run_until(40.0);
-    restored.run_until(40.0);
+    const auto [whole, restored] = gone_on_and_restored(scene, engine, 20.0, 40.0);
     EXPECT_EQ(whole.state().positions, restored.state().positions) << engine;
     EXPECT_EQ(whole.state().images, restored.state().images);
     EXPECT_EQ(whole.totals().wall_shear, restored.totals().wall_shear);

@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -271,15 +270,7 @@ TEST(OscillatingWalls, ABallThatCannotLeaveAWeakFloorEndsTheRun) {
 TEST(OscillatingWalls, ARunThatIsSavedGoesOnToTheSameBits) {
   for (const char* engine : {"general", "textbook", "textbook-quad"})
     for (const Oscillation& motion : {sine(0.25, 3.0, 0.2), sawtooth(0.25, 3.0, 0.2)}) {
-      const Scene scene = vibrated_gas(motion);
-      Simulation whole = make_simulation(scene, engine), begun = make_simulation(scene, engine);
-      whole.run_until(2.3);
-      begun.run_until(2.3);
-      std::stringstream bytes;
-      begun.save(bytes);
-      Simulation restored = restore_simulation(scene, bytes);
-      whole.run_until(5.0);
-      restored.run_until(5.0);
+      const auto [whole, restored] = gone_on_and_restored(vibrated_gas(motion), engine, 2.3, 5.0);
       EXPECT_EQ(whole.state().positions, restored.state().positions) << engine;
       EXPECT_EQ(whole.state().walls.at(2).position, restored.state().walls.at(2).position);
     }

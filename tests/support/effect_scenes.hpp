@@ -8,6 +8,7 @@
 #include <carom/simulation.hpp>
 
 #include <array>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,6 +32,20 @@ inline Scene scene_of_placed(const Box& box, const std::vector<Placed>& disks) {
   species.positions = positions;
   species.velocities = velocities;
   return scene_of(box, {species});
+}
+
+/// Returns two simulations of a scene at the time `until`: one that was interrupted at `saved`, and one that goes on from what
+/// was saved there.
+inline std::pair<Simulation, Simulation> gone_on_and_restored(const Scene& scene, const std::string& engine, double saved,
+                                                              double until) {
+  Simulation whole = make_simulation(scene, engine);
+  whole.run_until(saved);
+  std::stringstream bytes;
+  whole.save(bytes);
+  Simulation restored = restore_simulation(scene, bytes);
+  whole.run_until(until);
+  restored.run_until(until);
+  return {std::move(whole), std::move(restored)};
 }
 
 /// Runs `scene` to `time` and hands over the collisions.
