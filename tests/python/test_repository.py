@@ -1,4 +1,4 @@
-"""What a host of repositories reads: the citation file, the forms for issues, the workflows."""
+"""What a host of repositories reads: the citation file, the forms for issues, the workflows; and the numbers of things that pages state."""
 
 import pathlib
 import re
@@ -44,3 +44,27 @@ def test_addresses_of_the_playground_name_scenes_that_it_has():
     named = {name for page in (ROOT / "docs").rglob("*.md") for name in re.findall(r"[?&]scene=(\w+)", page.read_text())}
     assert len(scenes) > 20 and len(named) > 5
     assert named <= scenes
+
+
+#: Pages of the product; the log of changes tells what was so at its time.
+PAGES = [ROOT / "README.md", *sorted(page for page in (ROOT / "docs").rglob("*.md"))]
+
+
+def stated(pattern):
+    """Returns page and number wherever a page states a number of something."""
+    return [(str(page.relative_to(ROOT)), int(number)) for page in PAGES for number in re.findall(rf"\b(\d+)\s+{pattern}", page.read_text())]
+
+
+def test_pages_state_the_number_of_scenes_of_the_playground():
+    scenes = re.findall(r'^    id: "\w+"', (ROOT / "playground/scenes/scenes.js").read_text(), re.M)
+    found = [*stated(r"scenes\s+run\s+live"), *stated(r"scenes: gases")]
+    assert len(found) >= 2
+    assert {number for _, number in found} == {len(scenes)}, found
+
+
+def test_no_page_counts_the_gallery():
+    pictures = r"\b(?:\d+|[a-z]+(?:teen|ty)(?:-[a-z]+)?)\s+(?:pictures|players|scenes, each)"  # 31, nineteen, twenty-eight
+    for page in ("README.md", "docs/index.md", "docs/tour.md", "docs/gallery.md", "docs/how-to.md", "docs/tutorials/teaching.md", "docs/site/conf.py"):
+        assert not re.search(pictures, (ROOT / page).read_text(), re.I), page
+    drawn = {picture.stem for picture in (ROOT / "docs/images/gallery").glob("*.png") if not picture.stem.endswith("_dark")}
+    assert drawn == set(re.findall(r"images/gallery/(\w+?)(?:_dark)?\.png", (ROOT / "docs/gallery.md").read_text()))
