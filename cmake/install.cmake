@@ -1,5 +1,5 @@
-# What `cmake --install` puts below the prefix. The components are the packages of packages.cmake: program, mpi, library, and python3,
-# which only a package installs.
+# What `cmake --install` puts below the prefix. The components are the packages of packages.cmake: program, mpi, library, and python3
+# and static, which only a package installs.
 set(carom_package_directory ${CMAKE_INSTALL_LIBDIR}/cmake/carom)
 # A static library does not carry what it links to, so its user's linker needs that too; for nothing else are HDF5 and Cairo looked
 # for, and only where their components are asked for.
@@ -69,8 +69,19 @@ if(TARGET carom_pages)
   carom_pc(carom-pages carom_pages "HTML pages of Carom's results" "carom-io" "${carom_cairo_pc}")
 endif()
 
-install(FILES ${PROJECT_SOURCE_DIR}/build/playground/playground.html DESTINATION ${CMAKE_INSTALL_DATADIR}/carom COMPONENT program OPTIONAL)
-install(DIRECTORY docs/scenes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/carom/scenes COMPONENT program)
+# What comes with the program, and once more with the static one, which is in no installation but that of its component.
+set(carom_generated ${PROJECT_BINARY_DIR}/generated)
+function(carom_install_beside_program) # COMPONENT name [EXCLUDE_FROM_ALL]
+  install(FILES ${PROJECT_SOURCE_DIR}/build/playground/playground.html DESTINATION ${CMAKE_INSTALL_DATADIR}/carom ${ARGN} OPTIONAL)
+  install(DIRECTORY docs/scenes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/carom/scenes ${ARGN})
+  if(CAROM_BUILD_PROGRAM AND NOT CMAKE_CROSSCOMPILING)
+    install(DIRECTORY ${carom_generated}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 ${ARGN})
+    install(FILES ${carom_generated}/carom.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions ${ARGN} RENAME carom)
+    install(FILES ${carom_generated}/carom.zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions ${ARGN} RENAME _carom)
+    install(FILES ${carom_generated}/carom.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d ${ARGN})
+  endif()
+endfunction()
+carom_install_beside_program(COMPONENT program)
 if(CAROM_BUILD_PROGRAM)
   install(TARGETS carom_cli RUNTIME COMPONENT program)
   if(TARGET carom_mpi)
@@ -79,30 +90,16 @@ if(CAROM_BUILD_PROGRAM)
   # The program knows its own command line.
   if(NOT CMAKE_CROSSCOMPILING)
     add_custom_command(TARGET carom_cli POST_BUILD VERBATIM
-                       COMMAND carom_cli man --out ${PROJECT_BINARY_DIR}/generated/man
-                       COMMAND carom_cli completion bash > ${PROJECT_BINARY_DIR}/generated/carom.bash
-                       COMMAND carom_cli completion zsh > ${PROJECT_BINARY_DIR}/generated/carom.zsh
-                       COMMAND carom_cli completion fish > ${PROJECT_BINARY_DIR}/generated/carom.fish)
-    set(generated ${PROJECT_BINARY_DIR}/generated)
-    install(DIRECTORY ${generated}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
-    install(FILES ${generated}/carom.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME carom COMPONENT program)
-    install(FILES ${generated}/carom.zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions RENAME _carom COMPONENT program)
-    install(FILES ${generated}/carom.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)
+                       COMMAND carom_cli man --out ${carom_generated}/man
+                       COMMAND carom_cli completion bash > ${carom_generated}/carom.bash
+                       COMMAND carom_cli completion zsh > ${carom_generated}/carom.zsh
+                       COMMAND carom_cli completion fish > ${carom_generated}/carom.fish)
   endif()
 endif()
-
-# A program that brings what it loads, down to the C library: all libraries but those that every system has in the version of its kernel.
-if(CAROM_BUILD_PROGRAM AND CAROM_SELF_CONTAINED)
-  if(TARGET carom_mpi)
-    message(FATAL_ERROR "CAROM_SELF_CONTAINED needs CAROM_MPI=OFF: the MPI of a cluster is that of the cluster")
-  endif()
-  install(CODE [=[
-    file(GET_RUNTIME_DEPENDENCIES EXECUTABLES "$<TARGET_FILE:carom_cli>" RESOLVED_DEPENDENCIES_VAR libraries
-         PRE_EXCLUDE_REGEXES "^(ld-linux|lib(c|m|dl|rt|pthread|resolv|util|nsl|anl|mvec)\\.so)" POST_EXCLUDE_REGEXES "/ld-linux[^/]*$")
-    foreach(library IN LISTS libraries)
-      file(INSTALL "${library}" DESTINATION "${CMAKE_INSTALL_PREFIX}/lib/carom" FOLLOW_SYMLINK_CHAIN)
-    endforeach()
-  ]=] COMPONENT program)
+if(TARGET carom_static)
+  install(TARGETS carom_static RUNTIME COMPONENT static EXCLUDE_FROM_ALL)
+  install(DIRECTORY ${carom_licences}/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/carom/licences COMPONENT static EXCLUDE_FROM_ALL)
+  carom_install_beside_program(COMPONENT static EXCLUDE_FROM_ALL)
 endif()
 
 if(carom_python_found)

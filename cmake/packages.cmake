@@ -46,7 +46,11 @@ if(carom_python_found)
   set(CPACK_DEBIAN_PYTHON3_DESCRIPTION "event-driven molecular dynamics of hard disks: Python\nimport carom: simulations into numpy arrays, studies and sweeps, with the bits\nof the program.")
 endif()
 
-# cpack -G TGZ: with CAROM_SELF_CONTAINED a program that runs where none of its libraries is installed.
+# cpack -G TGZ: the static program, which runs where none of its libraries is installed; without CAROM_STATIC the other one.
+set(CPACK_CAROM_ARCHIVE_COMPONENT program)
+if(TARGET carom_static)
+  set(CPACK_CAROM_ARCHIVE_COMPONENT static)
+endif()
 set(CPACK_ARCHIVE_COMPONENT_INSTALL OFF)
 string(TOLOWER "${CMAKE_SYSTEM_NAME}-${CMAKE_SYSTEM_PROCESSOR}" carom_system)
 set(CPACK_PACKAGE_FILE_NAME carom-${PROJECT_VERSION}-${carom_system})

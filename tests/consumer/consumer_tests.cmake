@@ -76,3 +76,9 @@ if(DPKG_DEB AND NOT CMAKE_CROSSCOMPILING AND carom_type STREQUAL "STATIC_LIBRARY
                                        -P ${CMAKE_CURRENT_SOURCE_DIR}/consumer/debian_package.cmake)
   set_tests_properties(package.debian PROPERTIES LABELS package)
 endif()
+
+if(TARGET carom_static)
+  add_test(NAME package.static COMMAND ${CMAKE_COMMAND} -D BUILD=${PROJECT_BINARY_DIR} -D SCRATCH=${consumer_directory}/static -D PROGRAM=$<TARGET_FILE:carom_cli>
+                                       -D SCENES=${PROJECT_SOURCE_DIR}/docs/scenes -P ${CMAKE_CURRENT_SOURCE_DIR}/consumer/static_program.cmake)
+  set_tests_properties(package.static PROPERTIES LABELS package)
+endif()
