@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -69,11 +70,18 @@ std::vector<Neutral> with_neutral_effects(const Scene& scene) {
   if (!effects.gravity) add("gravity", [](Effects& e) { e.gravity = Gravity{}; });
   for (std::size_t wall = 0; wall < 4; ++wall) {
     const WallProperties& properties = effects.walls[wall];
-    if (scene.box.periodic(static_cast<int>(wall / 2)) || properties.temperature) continue;
+    if (scene.box.periodic(static_cast<int>(wall / 2))) continue;
+    if (properties.temperature) {
+      if (!properties.tangential_velocity)
+        add("wall tangential velocity", [&](Effects& e) { e.walls[wall].tangential_velocity = 0.0; });
+      continue;
+    }
     if (!properties.restitution) add("wall restitution", [&](Effects& e) { e.walls[wall].restitution = 1.0; });
     if (!properties.velocity && !properties.mass) add("wall velocity", [&](Effects& e) { e.walls[wall].velocity = 0.0; });
-    if (!properties.velocity && !properties.mass && !properties.vibration && !properties.oscillation)
+    if (!properties.velocity && !properties.mass && !properties.vibration && !properties.oscillation) {
+      add("wall vibration", [&](Effects& e) { e.walls[wall].vibration = 0.0; });
       add("wall oscillation", [&](Effects& e) { e.walls[wall].oscillation = Oscillation{WaveForm::sine, 0.0, 1.0}; });
+    }
   }
   for (const detail::EffectTraits& effect : detail::all_effects())
     if (!effect.numbers.empty() && !effect.is_present(effects))
@@ -105,6 +113,17 @@ TEST_P(EnginesNeutral, TheChoiceOfTheEngineDoesNotDependOnNeutralEffects) {
   if (!scene.effects.neutral()) GTEST_SKIP() << "something acts";
   for (const Neutral& neutral : with_neutral_effects(scene))
     EXPECT_EQ(make_simulation(neutral.scene).engine(), "fast") << neutral.name;
+}
+
+TEST(EnginesNeutralValues, AreEachTriedOnSomeExampleScene) {
+  std::set<std::string> tried;
+  for (const std::string& name : example_scenes())
+    for (const Neutral& neutral : with_neutral_effects(load_scene(example_path(name)))) tried.insert(neutral.name);
+  for (const char* by_hand : {"restitution", "roughness", "elastic_below", "gravity", "wall restitution", "wall velocity",
+                              "wall vibration", "wall oscillation", "wall tangential velocity"})
+    EXPECT_TRUE(tried.contains(by_hand)) << by_hand;
+  for (const detail::EffectTraits& effect : detail::all_effects())
+    EXPECT_TRUE(effect.numbers.empty() || tried.contains(std::string(effect.name))) << effect.name;
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EnginesNeutral, testing::ValuesIn(example_scenes()), [](const auto& scene) { return scene.param; });
