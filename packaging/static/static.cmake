@@ -55,12 +55,12 @@ list(REMOVE_DUPLICATES static_archives)
 
 set(static_parts carom_app carom_studies carom_runner carom_pages carom_io carom)
 list(TRANSFORM static_parts REPLACE "(.+)" "$<TARGET_FILE:\\1>" OUTPUT_VARIABLE static_files)
-add_executable(carom_static packaging/static/absent.cpp packaging/static/libraries.cpp $<TARGET_OBJECTS:carom_cli>)
+add_executable(carom_static packaging/static/absent.cpp packaging/static/letters.cpp packaging/static/libraries.cpp $<TARGET_OBJECTS:carom_cli>)
 set_target_properties(carom_static PROPERTIES OUTPUT_NAME carom RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/static LINK_DEPENDS "${static_files}")
 target_compile_features(carom_static PRIVATE cxx_std_20)
 target_include_directories(carom_static SYSTEM PRIVATE $<TARGET_PROPERTY:fmt::fmt,INTERFACE_INCLUDE_DIRECTORIES>
                                                        $<TARGET_PROPERTY:tomlplusplus::tomlplusplus,INTERFACE_INCLUDE_DIRECTORIES>)
-target_link_options(carom_static PRIVATE -static LINKER:--wrap=dlopen)
+target_link_options(carom_static PRIVATE -static LINKER:--wrap=dlopen,--wrap=cairo_select_font_face)
 target_link_libraries(carom_static PRIVATE -Wl,--start-group ${static_files} ${static_archives} -Wl,--end-group ${CAROM_QUADMATH_LIBRARY})
 add_dependencies(carom_static carom_cli ${static_parts})
 

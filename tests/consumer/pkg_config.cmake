@@ -2,15 +2,7 @@
 #
 #   cmake -D PREFIX=<prefix> -D LIBDIR=lib -D CXX=g++ -D SOURCE=<checkout> -D SCRATCH=<directory> -D SCENE=<file> -D RUN=<run> -P ...
 cmake_minimum_required(VERSION 3.25)
-
-function(run result)
-  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${SCRATCH} OUTPUT_VARIABLE output ERROR_VARIABLE errors RESULT_VARIABLE code)
-  if(NOT code EQUAL 0)
-    list(JOIN ARGN " " command)
-    message(FATAL_ERROR "${command}: exit ${code}\n${output}${errors}")
-  endif()
-  set(${result} "${output}" PARENT_SCOPE)
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 
 file(REMOVE_RECURSE ${SCRATCH})
 file(MAKE_DIRECTORY ${SCRATCH})
