@@ -93,6 +93,7 @@ TEST_F(Bootstrap, TakesPythonPackagesFromPyPIOnce) {
   EXPECT_THAT(run, AllOf(HasSubstr("CAROM_PYTHON=OFF"), Not(HasSubstr("pip"))));
   const std::string python = calls("python");
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("build/python/bin/activate"), HasSubstr("import carom")));
+  EXPECT_EQ(fs::read_symlink(file("checkout/build/python/bin/carom")), fs::canonical(file("checkout")) / "build/release/carom");
   EXPECT_EQ(text_of(file("carom.pth")), (fs::canonical(file("checkout")) / "build/release/python\n").string());
   // What is compiled already stays.
   EXPECT_THAT(python,
