@@ -14,6 +14,14 @@ def test_the_citation_names_the_version_of_the_build():
     version = re.search(r"project\(carom VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())
     assert version and citation["version"] == version[1]
     assert citation["cff-version"] == "1.2.0" and citation["title"] and citation["authors"] and citation["license"] == "MIT"
+    assert f"## [{version[1]}] - {citation['date-released']}\n" in (ROOT / "CHANGELOG.md").read_text()
+
+
+def test_the_log_of_changes_is_short_enough_to_be_read():
+    lines = (ROOT / "CHANGELOG.md").read_text().splitlines()
+    assert max(map(len, lines)) <= 120
+    newest = [k for k, line in enumerate(lines) if line.startswith("## ")]
+    assert newest[1] - newest[0] <= 150
 
 
 @pytest.mark.parametrize("form", [form for form in sorted((ROOT / ".github/ISSUE_TEMPLATE").glob("*.yml")) if form.stem != "config"],
