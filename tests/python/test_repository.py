@@ -76,3 +76,13 @@ def test_no_page_counts_the_gallery():
         assert not re.search(pictures, (ROOT / page).read_text(), re.I), page
     drawn = {picture.stem for picture in (ROOT / "docs/images/gallery").glob("*.png") if not picture.stem.endswith("_dark")}
     assert drawn == set(re.findall(r"images/gallery/(\w+?)(?:_dark)?\.png", (ROOT / "docs/gallery.md").read_text()))
+
+
+def test_results_have_the_prices_of_accuracy():
+    def rows(name):
+        return [line.strip("|").split(" | ") for line in (ROOT / "docs" / name).read_text().splitlines() if re.match(r"\| .*\d to \d.*\)", line)]
+
+    states = [(row[0], *row[1:3]) for row in rows("results.md") if "specular" in row[0] or "reversal" in row[0]]
+    priced = [row[3].split(", dt")[0] for row in rows("accuracy.md") if len(row) == 8]
+    assert len(states) == 4
+    assert [price.strip() for _, *prices in states for price in prices] == priced
