@@ -1,7 +1,7 @@
 # The program as one file that loads no library: static/carom, of the component `static`, which `cpack -G TGZ` packs. It is linked from the
 # objects of the program that is built in any case; fmt and toml++ alone are compiled once more.
 #
-# CAROM_STATIC=ON ends with a sentence where that cannot be, AUTO goes on without.
+# CAROM_STATIC=ON ends with a sentence where that cannot be, AUTO goes on without. Debian 13 has no libcairo.a.
 set(static_reason "")
 get_target_property(carom_type carom TYPE)
 if(NOT carom_type STREQUAL "STATIC_LIBRARY")
@@ -31,7 +31,7 @@ if(NOT CAROM_HAS_STATIC_C_LIBRARY)
 endif()
 if(static_missing AND NOT static_reason)
   list(JOIN static_missing ", " static_missing)
-  set(static_reason "the static libraries of Debian's libhdf5-dev, libcairo2-dev and g++ (not found: ${static_missing})")
+  set(static_reason "static libraries, which libhdf5-dev, libcairo2-dev and g++ of Debian 12 have (not found: ${static_missing})")
 endif()
 if(static_reason)
   if(NOT CAROM_STATIC STREQUAL "AUTO")
