@@ -1,5 +1,5 @@
-// Could one run go on several cores? Measures, on the collisions of real runs, all that docs/parallel.md says of that, and writes
-// it as JSON; docs/images/parallel.py makes tables, the model and the plot of it.
+// Could one run go on several cores? Measures, on the collisions of real runs, all that docs/appendix/event-graph.md says of
+// that, and writes it as JSON; docs/images/parallel.py makes tables, the model and the plot of it.
 //
 //   event_graph [DISKS ...] > bench/results/event_graph.json
 //

@@ -1,5 +1,6 @@
 #pragma once
-// Dependences in a sequence of collisions, and the speed-up that they allow: the measurements of docs/parallel.md.
+// Dependences in a sequence of collisions, and the speed-up that they allow: the measurements of
+// docs/appendix/event-graph.md.
 //
 // Events come one by one, in order of time, each as its two disks i and j and its zone: the disks, i and j among them, whose last
 // events it needs. The smallest zone is {i, j}; the disks near them are those that a prediction examines. Domains are numbered

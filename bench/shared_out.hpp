@@ -1,5 +1,6 @@
 #pragma once
-// The box of a run cut into p domains, one per core: all that docs/parallel.md asks of such a division, measured while the
+// The box of a run cut into p domains, one per core: all that docs/appendix/event-graph.md asks of such a
+// division, measured while the
 // collisions of the run go by.
 
 #include "event_graph.hpp"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tables and plot of docs/parallel.md, from what `event_graph` and `carom bench --json` wrote.
+"""Tables and plot of docs/appendix/event-graph.md, from what `event_graph` and `carom bench --json` wrote.
 
     docs/images/parallel.py [FILE]
 

@@ -28,7 +28,7 @@ endforeach()
 
 set(faults "")
 set(count 0)
-file(GLOB pages RELATIVE ${SOURCE_DIR} ${SOURCE_DIR}/README.md ${SOURCE_DIR}/CONTRIBUTING.md ${SOURCE_DIR}/docs/*.md ${SOURCE_DIR}/docs/effects/*.md)
+file(GLOB pages RELATIVE ${SOURCE_DIR} ${SOURCE_DIR}/README.md ${SOURCE_DIR}/CONTRIBUTING.md ${SOURCE_DIR}/docs/*.md ${SOURCE_DIR}/docs/effects/*.md ${SOURCE_DIR}/docs/appendix/*.md)
 foreach(page IN LISTS pages)
   file(READ ${SOURCE_DIR}/${page} text)
   string(REGEX REPLACE "[][;]" " " text "${text}")  # what CMake takes for the structure of a list
