@@ -3,8 +3,8 @@
 
     docs/images/draw.py path/to/carom
 
-Needs python3-numpy, python3-matplotlib and ffmpeg. Writes box.gif and equation_of_state.svg beside this file, and
-prints the table of the latter.
+Needs python3-numpy, python3-matplotlib and ffmpeg. Writes box.gif, equation_of_state.svg and their dark versions beside
+this file, and prints the table of the latter.
 """
 import json
 import pathlib
@@ -36,6 +36,10 @@ def draw_box(directory):
     run(scenes / "box.toml", directory / "box", "run.time=1.5", "output.events=true")
     film = "--size 360 --fps 15 --speed 0.3 --trails 0.25 --force --quiet"
     subprocess.run([carom, "movie", str(directory / "box"), "-o", str(here / "box.gif"), *film.split()], check=True)
+    dark = directory / "dark.gif"
+    subprocess.run([carom, "movie", str(directory / "box"), "-o", str(dark), "--dark", *film.split()], check=True)
+    few = "split[a][b];[a]palettegen=max_colors=32:stats_mode=diff[p];[b][p]paletteuse=dither=none:diff_mode=rectangle"
+    subprocess.run(["ffmpeg", "-y", "-loglevel", "error", "-i", str(dark), "-filter_complex", few, str(here / "box_dark.gif")], check=True)
 
 
 def kolafa_rottner(eta):
@@ -79,6 +83,7 @@ def draw_equation_of_state(directory):
     bottom.set(xlabel="packing fraction η", ylabel="deviation, %")
     figure.tight_layout()
     figure.savefig(here / "equation_of_state.svg", metadata={"Date": None})
+    subprocess.run([sys.executable, str(here / "dark.py"), str(here / "equation_of_state.svg")], check=True)
 
 
 with tempfile.TemporaryDirectory() as temporary:

@@ -141,7 +141,7 @@ def with_dark_pictures(text):
         return "\n\n".join(f"```{{image}} {file}\n:alt: {words}\n:class: {screen}\n```"
                            for file, screen in ((f"{light}.{kind}", "only-light"), (dark, "only-dark")))
 
-    return re.sub(r"^!\[([^\]]*)\]\((images/\w+)\.(\w+)\)$", both, text, flags=re.M)
+    return re.sub(r"^!\[([^\]]*)\]\((images/(?:gallery/)?\w+)\.(\w+)\)$", both, text, flags=re.M)
 
 
 def live(docname):
@@ -168,9 +168,9 @@ def on_source_read(app, docname, content):
     stands_in = COPIED[docname].parent if docname in COPIED else (DOCS / docname).parent
     text = COPIED[docname].read_text() if docname in COPIED else content[0]
     text = rewrite_links(text, docname, stands_in)
-    text = with_dark_pictures(text)
     if docname == "gallery":
         text = with_players(text)
+    text = with_dark_pictures(text)
     if PLAYGROUND:
         text = with_playground(text, docname)
     text = text.replace("<!-- live pages -->", live(docname))

@@ -52,8 +52,11 @@ TEST(GalleryPage, ShowsThePicturesThatItsCommandsDraw) {
   const std::string page = text_of(docs / "gallery.md");
   EXPECT_GE(names().size(), 15U);
   for (const std::string& name : names()) EXPECT_NE(page.find("(images/gallery/" + name + ".png)"), std::string::npos) << name;
-  const auto kept = fs::directory_iterator(docs / "images/gallery");
-  EXPECT_EQ(static_cast<std::size_t>(std::distance(fs::begin(kept), fs::end(kept))), names().size());
+  const fs::path pictures = docs / "images/gallery";
+  for (const std::string& name : names())
+    EXPECT_EQ(pixels_of(pictures / (name + "_dark.png")), pixels_of(pictures / (name + ".png"))) << name;
+  const auto kept = fs::directory_iterator(pictures);
+  EXPECT_EQ(static_cast<std::size_t>(std::distance(fs::begin(kept), fs::end(kept))), 2 * names().size());
 }
 
 }  // namespace
