@@ -67,7 +67,7 @@ CONTENTS = {
     "Explanation": ["model", "algorithm", "numerics", "accuracy", "results", "validation", "hard-cases", "reliability", "performance", "parallel"],
     "Classroom": ["teach/README"],
     "Development": ["site/contributing", "architecture", "adding-an-effect", "adding-an-observable", "claims", "site/changes"],
-    "Appendix": ["appendix/tried-without-gain", "appendix/event-graph"],
+    "Appendix": ["appendix/what-made-it-faster", "appendix/tried-without-gain", "appendix/event-graph"],
 }
 #: Pages whose side bar has the other pages of their folder below them.
 FOLDERS = ["effects/README", "teach/README"]
