@@ -221,5 +221,42 @@ TEST(PhysicsErrors, OfIndependentRunsScatterAsTheySay) {
   }
 }
 
+TEST(PhysicsDisplacement, BeginsBallisticallyAndBendsAsTheCollisionRateSays) {
+  // <dx^2> = v_T^2 t^2 (1 - s t / 3 + ...): the velocity's correlation is v_T^2 (1 - s t) at first, because a collision takes
+  // g_n^2 / 2 from v.v' of each disk. Over all velocities that is omega; of N disks at fixed energy and momentum 0, with
+  // d = 2 N - 2 degrees of freedom, the mean of g_n^2 in collisions is 4 d / (d + 1), and <v^2> = 2 (N - 1) / N, at kT = 1.
+  constexpr int disks = 128, runs = 16;
+  for (const double eta : {0.1, 0.4}) {
+    constexpr double N = disks, d = 2.0 * N - 2.0;
+    const double slope = theory::disk_collision_rate(eta, disks) * N * d / ((N - 1.0) * (d + 1.0)), h = 0.05 / slope;
+    double sum = 0.0, squares = 0.0;
+    for (int seed = 1; seed <= runs; ++seed) {
+      const Observed o = observe(
+          parse_scene(fmt::format("[box]\naspect = 1.0\nboundary = \"periodic\"\n[[disks]]\ncount = {}\nradius = 0.5\nmass = "
+                                  "1.0\npacking_fraction = {}\npositions = \"hexagonal\"\nvelocities = {{ temperature = 1.0 "
+                                  "}}\n[collision]\nrule = \"specular\"\n[run]\nseed = {}\ntime = {}\nequilibrate = {{ "
+                                  "collisions_per_disk = 50 }}\n[observe]\nmean_square_displacement = {{ every = {} }}\n",
+                                  disks, eta, seed, 6000.0 * h, h)),
+          6000.0 * h);
+      const std::vector<double>&lag = o.column("mean_square_displacement", 0, "lag"),
+            &msd = o.column("mean_square_displacement", 0, "msd");
+      const auto bend = [&](double time) {
+        const auto row = static_cast<std::size_t>(
+            std::find_if(lag.begin(), lag.end(), [&](double at) { return std::abs(at - time) < 1e-9 * time; }) - lag.begin());
+        return (1.0 - msd.at(row) / (2.0 * (N - 1.0) / N * time * time)) / time;  // s / 3 - constant * t
+      };
+      const double found = 3.0 * (2.0 * bend(h) - bend(2.0 * h));
+      sum += found / runs, squares += found * found / runs;
+    }
+    const double error = std::sqrt((squares - sum * sum) / (runs - 1.0));
+    RecordProperty(fmt::format("slope_{}", eta), testing::PrintToString(sum / slope));
+    RecordProperty(fmt::format("error_{}", eta), testing::PrintToString(error / slope));
+    // Of an exponential correlation a straight line through two lags leaves (s h)^2 / 10, 2.5e-4, of the slope; five errors of 16
+    // runs are four of a normal variable.
+    EXPECT_NEAR(sum, slope, 5.0 * error + 1e-3 * slope) << eta;
+    EXPECT_LT(error, 0.005 * slope);
+  }
+}
+
 }  // namespace
 }  // namespace carom::test
