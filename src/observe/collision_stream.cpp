@@ -6,21 +6,33 @@
 
 #include <cmath>
 #include <numeric>
+#include <variant>
 
 namespace carom {
 
-CollisionStream::CollisionStream(const Scene& scene, const Disks& disks)
-    : radius_(disks.radius),
-      scales_(contact_scales<double>(scene.effects, disks)),
-      box_(scene.box),
-      smooth_(velocities_determine_contacts(scene.effects)) {
-  acceleration_ = scene.effects.acceleration();
-  if (const std::vector<PotentialStep> steps = scene.effects.potential_steps(); !steps.empty())
-    edge_ = 0.5 * (1.0 + steps.front().width);
-  moves_between_ = !smooth_ || !acceleration_.isZero(0.0);
-  std::vector<std::int32_t> ids(disks.count());
+CollisionStream::CollisionStream(const ObservedRun& run)
+    : radius_(run.disks.radius),
+      scales_(contact_scales<double>(run.scene.effects, run.disks)),
+      box_(run.scene.box),
+      smooth_(velocities_determine_contacts(run.scene.effects)),
+      moves_between_(!smooth_ || !run.scene.effects.acceleration().isZero(0.0)) {
+  take(*run.acting);
+  std::vector<std::int32_t> ids(run.disks.count());
   std::iota(ids.begin(), ids.end(), 0);
-  table_ = disk_table(std::move(ids), disks, scene.effects);
+  table_ = disk_table(std::move(ids), run.disks, run.scene.effects);
+}
+
+void CollisionStream::take(const Effects& acting) {
+  acceleration_ = acting.acceleration();
+  const std::vector<PotentialStep> steps = acting.potential_steps();
+  edge_ = steps.empty() ? 0.0 : 0.5 * (1.0 + steps.front().width);
+}
+
+void CollisionStream::change(const Change& change, const Effects& acting) {
+  for (std::size_t i = 0; i < since_.size(); ++i) move(static_cast<std::int32_t>(i), change.time);
+  if (const auto* scale = std::get_if<ScaleVelocities>(&change.what))
+    for (Eigen::Vector2d& velocity : velocity_) velocity *= scale->factor;
+  take(acting);
 }
 
 void CollisionStream::start(const State& state) {

@@ -4,6 +4,7 @@
 #include "observe/drift.hpp"
 #include "observe/equilibrium.hpp"
 #include "observe/observables.hpp"
+#include "scene/changes.hpp"
 
 #include <fmt/format.h>
 
@@ -15,11 +16,12 @@
 
 namespace carom {
 
-ObservableGroup::ObservableGroup(const ObservedRun& run) : run_(run), meter_(run.scene, run.disks) {
+ObservableGroup::ObservableGroup(const ObservedRun& run) : run_(run), acting_(*run.acting), meter_(run.scene, run.disks) {
   for (const ObservableRequest& request : run.scene.observe) add(make_observable(request, run_));
 }
 
-ObservableGroup::ObservableGroup(const ObservedRun& run, std::istream& saved) : run_(run), meter_(run.scene, run.disks) {
+ObservableGroup::ObservableGroup(const ObservedRun& run, std::istream& saved)
+    : run_(run), acting_(*run.acting), meter_(run.scene, run.disks) {
   load(saved);
   for (const ObservableRequest& request : run.scene.observe) add(make_observable(request, run_));
 }
@@ -56,7 +58,7 @@ void ObservableGroup::add(MadeObservable made) {
 void ObservableGroup::follow_log() {
   run_.has_collision_records = false;
   if (stream_ || !follows_collisions()) return;
-  stream_.emplace(run_.scene, run_.disks);
+  stream_.emplace(run_);
   if (saved_stream_.empty()) return;
   std::istringstream saved(saved_stream_);
   LoadingArchive archive(saved);
@@ -90,10 +92,26 @@ void ObservableGroup::start(const State& state) {
 /// Passes events on in pieces that stay in the nearest cache while all observables read them.
 void ObservableGroup::follow(std::span<const Event> events) {
   while (!events.empty()) {
-    const std::size_t count = std::min(CollisionContacts::most, events.size());
-    follow(stream_->follow(events.first(count)));
+    const auto later = [&](const Event& event) {
+      return changes_ < run_.scene.changes.size() && run_.scene.changes[changes_].time < event.time;
+    };
+    while (later(events.front())) pass_change();
+    const std::span<const Event> some = events.first(std::min(CollisionContacts::most, events.size()));
+    const auto count = static_cast<std::size_t>(std::ranges::find_if(some, later) - some.begin());
+    follow(stream_->follow(some.first(count)));
     events = events.subspan(count);
   }
+}
+
+void ObservableGroup::changed(std::size_t changes) {
+  while (changes_ < changes) pass_change();
+}
+
+/// Passes on the next change of the scene to what follows collisions.
+void ObservableGroup::pass_change() {
+  const Change& change = run_.scene.changes[changes_++];
+  acting_ = effects_after(acting_, change);
+  if (stream_) stream_->change(change, acting_);
 }
 
 void ObservableGroup::follow(const CollisionRecords& collisions) {
@@ -109,6 +127,7 @@ void ObservableGroup::follow(const CollisionRecords& collisions) {
 }
 
 void ObservableGroup::change(bool made, const Effects& effects, const State& state, const Totals& totals) {
+  if (made) pass_change();
   for (ChangeFollower* follower : change_followers_) follower->change(made, effects, state, totals);
 }
 
@@ -140,7 +159,7 @@ std::vector<Measurement> ObservableGroup::results(double time, const Totals& tot
 
 void ObservableGroup::save(std::ostream& out) const {
   SavingArchive archive(out);
-  archive(run_.time, run_.temperature, run_.mean_free_time, started_, meter_);
+  archive(run_.time, run_.temperature, run_.mean_free_time, started_, meter_, static_cast<std::uint64_t>(changes_));
   std::ostringstream stream;
   if (stream_) {
     SavingArchive of_stream(stream);
@@ -156,8 +175,9 @@ void ObservableGroup::save(std::ostream& out) const {
 
 void ObservableGroup::load(std::istream& saved) {
   LoadingArchive archive(saved);
-  std::uint64_t observables = 0;
-  archive(run_.time, run_.temperature, run_.mean_free_time, started_, meter_, saved_stream_, observables);
+  std::uint64_t changes = 0, observables = 0;
+  archive(run_.time, run_.temperature, run_.mean_free_time, started_, meter_, changes, saved_stream_, observables);
+  changes_ = changes;
   saved_.resize(observables);
   for (std::string& gathered : saved_) archive(gathered);
 }

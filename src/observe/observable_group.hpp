@@ -42,11 +42,13 @@ class ObservableGroup {
   void follow_log();
 
   void start(const State& state);
-  /// Passes on the collisions among events. Requires events in order, none left out, and !run().has_collision_records. What comes
-  /// of it does not depend on how they are divided among calls.
+  /// Passes on the collisions among events, and the changes of the scene before each. Requires events in order, none left out,
+  /// and !run().has_collision_records. What comes of it does not depend on how they are divided among calls.
   void follow(std::span<const Event> events);
   /// Returns whether change() and end() are to be called.
-  [[nodiscard]] bool follows_changes() const { return !change_followers_.empty(); }
+  [[nodiscard]] bool follows_changes() const { return !change_followers_.empty() || !run_.scene.changes.empty(); }
+  /// Says that the scene has made so many of its changes, and that events to come are later.
+  void changed(std::size_t changes);
   /// Passes on a change of the scene, just before (made = false) and just after it, when all before it was passed on.
   void change(bool made, const Effects& effects, const State& state, const Totals& totals);
   /// Passes on the last state; to be called before results().
@@ -60,6 +62,7 @@ class ObservableGroup {
 
  private:
   void load(std::istream& saved);
+  void pass_change();
   [[nodiscard]] CollisionRecords touching(const CollisionRecords& collisions);
 
   ObservedRun run_;
@@ -70,6 +73,8 @@ class ObservableGroup {
   std::vector<RecordFollower*> record_followers_;
   std::vector<ChangeFollower*> change_followers_;
   std::optional<CollisionStream> stream_;  ///< where events are followed
+  Effects acting_;                         ///< after those of the scene's changes that have been passed on
+  std::size_t changes_ = 0;                ///< that have been passed on
   FluxMeter meter_;
   std::vector<PairCollision> collisions_;
   std::vector<CollisionRecord> touching_;

@@ -52,6 +52,7 @@ class Observation::Driver {
       simulation.take_events(events_);
       group_.follow(events_);
     }
+    group_.changed(simulation.whole_scene().changes.size() - simulation.scene().changes.size());
     const double now = simulation.time();
     for (Due& due : due_) {
       const double time = static_cast<double>(due.k) * due.step, rounding = 1e-9 * due.step;

@@ -239,6 +239,7 @@ Effects detail::merged(const Effects& one, const Effects& other) {
   take(&Effects::stepped_potential, "stepped_potential");
   take(&Effects::drag, "drag");
   if (one.obstacles.empty()) both.obstacles = other.obstacles;
+  if (other.collision.rule == CollisionRule::reversal) both.collision.rule = other.collision.rule;
   take_where_it_lacks(both.collision.restitution, other.collision.restitution, 1.0);
   take_where_it_lacks(both.collision.roughness, other.collision.roughness, -1.0);
   take_where_it_lacks(both.collision.elastic_below, other.collision.elastic_below, 0.0);

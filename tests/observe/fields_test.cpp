@@ -223,6 +223,32 @@ TEST(Fields, OfDisksInWellsCarryTheEnergyOfPairs) {
   EXPECT_NEAR(field(o, "heat_flux_y")[0], rest.y(), 1e-12);
 }
 
+/// What follows disks from collision to collision has to make the changes of the scene, too: elastic disks lose no energy, which
+/// any velocity, place or edge of a potential that is out of date would show.
+TEST(Fields, OfElasticDisksLoseNothingWhereTheSceneChanges) {
+  struct Case {
+    const char* scene;
+    const char* changes;
+  };
+  const char* const scaled =
+      "[[changes]]\ntime = 1.0\nscale_velocities = 2.0\n[[changes]]\ntime = 1.5\nscale_velocities = -0.5\n";
+  for (const auto& [tables, changes] :
+       {Case{"", scaled}, Case{"roughness = 1.0\n", scaled}, Case{"[gravity]\nacceleration = [0.0, -0.5]\n", scaled},
+        Case{"[gravity]\nacceleration = [0.0, -1.0]\n", "[[changes]]\ntime = 1.0\nset = [\"gravity.acceleration=[0.0,-3.0]\"]\n"},
+        Case{"", "[[changes]]\ntime = 1.0\nset = [\"gravity.acceleration=[0.0,-1.0]\"]\n"},
+        Case{"", "[[changes]]\ntime = 1.0\nset = [\"collision.rule='reversal'\"]\n"},
+        Case{"[square_well]\nwidth = 1.8\ndepth = 0.5\n", "[[changes]]\ntime = 1.0\nset = [\"square_well.width=1.2\"]\n"}}) {
+    const Observed o = observe(
+        parse_scene("[box]\nx = [0.0, 12.0]\ny = [0.0, 12.0]\nboundary = { x = \"periodic\", y = \"walls\" }\n[[disks]]\ncount = "
+                    "50\nradius = 0.5\nmass = 1.0\npositions = \"random\"\nvelocities = { temperature = 1.0 }\n[collision]\nrule "
+                    "= \"specular\"\n" +
+                    std::string(tables) + changes + "[run]\ntime = 4.0\n[observe]\nfields = { every = 0.125, cells = [2, 2] }\n"),
+        4.0);
+    ASSERT_GT(o.totals.pair, 200U);
+    for (const double lost : o.column("fields", 1, "energy_lost")) EXPECT_NEAR(lost, 0.0, 1e-12) << tables << changes;
+  }
+}
+
 TEST(Fields, SayHowManyDisksWereBeyondTheGrid) {
   const auto notes = [](const std::string& wall) {
     const Observed o = observe(parse_scene("[box]\nx = [0.0, 8.0]\ny = [0.0, 8.0]\nboundary = \"walls\"\n[[disks]]\ncount = 1\n"

@@ -40,12 +40,14 @@ std::vector<Measurement> by_schedule(const Scene& scene) {
 }
 
 TEST(OwnLoop, FindsWhatAScheduleFinds) {
-  for (const bool rough : {false, true}) {
+  enum class Kind { plain, rough, changed };
+  for (const Kind kind : {Kind::plain, Kind::rough, Kind::changed}) {
     Scene scene = observed_scene();
-    if (rough) {
+    if (kind == Kind::rough) {
       scene.effects.collision.roughness = 0.5;
       scene.observe.pop_back();  // there is no viscosity of rough disks
     }
+    if (kind == Kind::changed) scene.changes = {{3.0, ScaleVelocities{2.0}}, {7.25, ScaleVelocities{0.5}}};
     Simulation simulation = make_simulation(scene);
     Observation observation(simulation);
     EXPECT_EQ(observation.next_sample(), 0.0);

@@ -58,7 +58,7 @@ TEST(ToldCollisions, AreThoseOfTheEventLog) {
     std::optional<CollisionStream> stream;
     std::vector<PairCollision> told, followed, some;
     RunHooks hooks;
-    hooks.start = [&](const State& state) { stream.emplace(simulation.scene(), simulation.disks()).start(state); };
+    hooks.start = [&](const State& state) { stream.emplace(observed_run(simulation)).start(state); };
     hooks.events = [&](std::span<const Event> events) {
       stream->follow(events).read(some);
       followed.insert(followed.end(), some.begin(), some.end());

@@ -107,6 +107,9 @@ std::vector<Kept> kept_runs() {
                       observing(of_states + of_motion + "free_flight = true\nwall_fluxes = { every = 0.3 }\n")},
       {"rough", mixture_between_walls + "[collision]\nrule = \"specular\"\nroughness = 0.5\nrestitution = 0.95\n" +
                     observing(of_states + of_motion + "free_flight = true\n")},
+      {"changed", mixture + observing(of_states + of_motion + "free_flight = true\nwall_fluxes = { every = 0.3 }\n") +
+                      "[[changes]]\ntime = 3.05\nscale_velocities = 2.0\n[[changes]]\ntime = 7.0\nset = "
+                      "[\"gravity.acceleration=[0,-0.5]\"]\n"},
       {"walls_that_do_something",
        mixture + "[walls]\ntop = { velocity = 0.05 }\nbottom = { temperature = 3.0 }\n" +
            observing("temperature = { every = 0.1 }\npressure = { every = 0.3 }\nwall_fluxes = { every = 0.3 }\n")},

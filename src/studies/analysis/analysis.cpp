@@ -127,8 +127,10 @@ Analysis analyse(const std::filesystem::path& run_directory, const std::vector<s
       throw std::invalid_argument(
           "work and heat are measured while the scene runs, and its files do not hold what baths and collisions gave; name other "
           "observables");
+  const Effects at_start = scene.effects;
   scene.effects = detail::effects_of_whole_run(scene);
   ObservedRun observed = observed_run(scene, run.disks(), run.reference_temperature());
+  observed.acting = &at_start;
   observed.collisions_known = run.has_event_log();
   for (ObservableRequest& request : scene.observe) choose_step(request, observed, run.samples());
   ObservableGroup group(observed);
