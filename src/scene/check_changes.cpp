@@ -77,15 +77,22 @@ void move_walls(Box& box, const Effects& effects, double time) {
 }
 
 /// Puts a wall that vibrates no more, or otherwise, to where it has come to. One that goes on vibrating is checked from its
-/// start.
+/// start. Where that is unknown, it is as far outside as it comes: the run itself looks again.
 class VibratingWalls {
  public:
-  /// From `time` on the walls move as `now` says; until then they did as `before` says. Times count from the start of all.
+  /// `equilibrated` is how long walls move before the measured run; none where that is known only when it is over.
+  explicit VibratingWalls(std::optional<double> equilibrated) {
+    since_.fill(equilibrated ? std::optional(-*equilibrated) : std::nullopt);
+  }
+
+  /// From `time` on the walls move as `now` says; until then they did as `before` says. Times count from the start of the
+  /// measured run.
   void change(Box& box, const Effects& before, const Effects& now, double time) {
     for (std::size_t w = 0; w < since_.size(); ++w) {
       const auto &one = before.walls[w].oscillation, &other = now.walls[w].oscillation;
       if (one == other) continue;
-      const double inward = one ? inward_after(*one, time - since_[w]) : 0.0;
+      double inward = 0.0;
+      if (one) inward = since_[w] ? inward_after(*one, time - *since_[w]) : inward_reach(*one) - 2.0 * one->amplitude;
       if (w % 2 == 0)
         box.lower[static_cast<Eigen::Index>(w / 2)] += inward;
       else
@@ -95,7 +102,7 @@ class VibratingWalls {
   }
 
  private:
-  std::array<double, 4> since_{};
+  std::array<std::optional<double>, 4> since_;
 };
 
 bool contact_distances_differ(const Scene& scene, const Effects& now, const Effects& before) {
@@ -133,7 +140,7 @@ void check_observables(const Scene& scene, const Effects& now, const Effects& be
 void check_changes(const Scene& scene) {
   Effects now = scene.effects;
   Box box = scene.box;
-  VibratingWalls vibrating;
+  VibratingWalls vibrating(scene.run.equilibrate ? scene.run.equilibrate->time : 0.0);
   const double equilibrated = scene.run.equilibrate ? scene.run.equilibrate->time.value_or(0.0) : 0.0;
   double since = 0.0;
   const auto until = [&](std::size_t k) -> std::optional<double> {
@@ -151,7 +158,7 @@ void check_changes(const Scene& scene) {
     const Effects before = now;
     try {
       now = effects_after(before, change);
-      vibrating.change(box, before, now, equilibrated + change.time);
+      vibrating.change(box, before, now, change.time);
       const std::optional<double> end = until(k + 1);
       Scene stage = stage_of(scene, now, box, end ? std::optional(*end - change.time) : std::nullopt);
       stage.run.equilibrate.reset();

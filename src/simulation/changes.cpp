@@ -14,6 +14,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <stdexcept>
 #include <utility>
@@ -30,13 +32,20 @@ void scale_radii(Scene& scene, double scale) {
   }
 }
 
-/// The scene that begins where a simulation is now: walls where they stand, disks one by one and as large as they have grown. In
-/// single precision disks may overlap by more than check() takes for rounding. Changes to come have been checked.
-Scene begun_now(Scene scene, const State& state, bool single) {
+/// The scene that begins where a simulation is now: walls where they stand in their periods, disks one by one and as large as
+/// they have grown. In single precision disks may overlap by more than check() takes for rounding. Changes to come have been
+/// checked.
+Scene begun_now(Scene scene, const State& state, const std::array<OscillationClock, 4>& clocks, bool single) {
   scene.changes.clear();
   scene.box = box_of(scene.box, state);
   scale_radii(scene, single ? state.scale * (1.0 - 1e-5) : state.scale);
   list_disks(scene, state);
+  for (std::size_t k = 0; k < clocks.size(); ++k) {
+    std::optional<Oscillation>& motion = scene.effects.walls[k].oscillation;
+    if (!clocks[k].what || motion != clocks[k].what) continue;  // it begins anew
+    const double periods = motion->phase + motion->frequency * clocks[k].elapsed.high;
+    motion->phase = periods - std::floor(periods);
+  }
   return scene;
 }
 
@@ -66,6 +75,12 @@ void Simulation::Parts::require_rule() const {
   if (rule_missing)
     throw std::logic_error(
         "this simulation was saved with a collision rule of the program; give it again by set_collision_rule()");
+}
+
+std::array<OscillationClock, 4> Simulation::Parts::oscillation_clocks() const {
+  Continuation now;
+  engine->leave(now);
+  return now.oscillations;
 }
 
 void Simulation::Parts::go_on(Scene with, State state, CollisionFunction with_rule) {
@@ -116,7 +131,7 @@ void Simulation::Parts::make_change() {
       state.spins *= scale->factor;
     } else {
       changed.effects = effects_after(scene.effects, change);
-      Scene begun = begun_now(changed, state, engine_name == "textbook-float");
+      Scene begun = begun_now(changed, state, oscillation_clocks(), engine_name == "textbook-float");
       begun.run.equilibrate.reset();
       if (const Instant next = changed.changes.empty() ? forever : Instant{changed.changes.front().time, 0.0}; next < forever)
         begun.run.time = next.high;
@@ -138,7 +153,7 @@ void Simulation::set_effects(const Effects& effects) {
   scene.effects = effects;
   scene.effects.circle = circle;
   State state = parts_->engine->state();
-  check_begun(begun_now(scene, state, parts_->engine_name == "textbook-float"), state);
+  check_begun(begun_now(scene, state, parts_->oscillation_clocks(), parts_->engine_name == "textbook-float"), state);
   parts_->go_on(std::move(scene), std::move(state), parts_->rule);
 }
 

@@ -8,6 +8,7 @@
 #include "simulation/proceed_watch.hpp"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -60,6 +61,8 @@ struct Simulation::Parts {
   std::optional<Scene> whole = {};          ///< Simulation::whole_scene() of a scene with changes
   Ranks* ranks = nullptr;                   ///< that compute it; null: this process alone
 
+  /// Returns how long each wall has vibrated as it does. Requires require_changeable().
+  [[nodiscard]] std::array<OscillationClock, 4> oscillation_clocks() const;
   /// Goes on with another engine, from this state in this scene, which has been checked. Throws as make_simulation() does from a
   /// state; then all is as it was.
   void go_on(Scene with, State state, CollisionFunction with_rule);

@@ -307,6 +307,34 @@ TEST(OscillatingWalls, GoOnAsTheyDidWhereSomethingElseChanges) {
     }
 }
 
+TEST(OscillatingWalls, MayBeNearAnObstacleWhenSomethingElseChanges) {
+  // At 0.9 of a period of 4 the floor is at 0.494 of 0.5: it comes 0.006 further, and an obstacle begins at 0.6.
+  for (const char* engine : engines_with_effects) {
+    Scene scene = ball(sine(0.5, 0.25), {0.0, 0.0}, 2.0, 1.0);
+    scene.effects.obstacles = {DiskObstacle{{1.0, 1.6}, 1.0}};
+    scene.run.time = 3.0;
+    scene.changes = {{0.9, SetKeys{{"gravity.acceleration=[0.0,-2.0]"}}}};
+    Simulation simulation = make_simulation(scene, engine);
+    const RunResult result = run_schedule(simulation, {});
+    EXPECT_EQ(result.blocked_by, "") << engine;
+    EXPECT_EQ(simulation.time(), 3.0);
+    Effects nearer = simulation.scene().effects;
+    nearer.obstacles = {DiskObstacle{{1.0, 1.4}, 1.0}};  // the floor is below its start now, and comes 1 further
+    EXPECT_THAT([&] { simulation.set_effects(nearer); },
+                testing::ThrowsMessage<SceneError>(testing::HasSubstr("walls.bottom comes 1 inward in each period")));
+  }
+}
+
+TEST(OscillatingWalls, AreNotRefusedForAPlaceThatIsUnknownBefore) {
+  // How long it takes to equilibrate by collisions is known when it is over, so where the floor stands is, too. From wherever it
+  // is below its start the new sine reaches no obstacle.
+  Scene scene = vibrated_gas(sine(0.5, 0.25));
+  scene.effects.obstacles = {DiskObstacle{{2.0, 1.6}, 1.0}};
+  scene.run = {.time = 3.0, .equilibrate = Run::Equilibrate{.collisions_per_disk = 2.0}};
+  scene.changes = {{1.0, SetKeys{{"walls.bottom={ vibration = { form = \"sine\", amplitude = 0.5, frequency = 0.5 } }"}}}};
+  EXPECT_NO_THROW(check(scene));
+}
+
 TEST(OscillatingWalls, KeepTheirPhaseInALongRun) {
   // A hundred thousand periods, whose length is no sum of powers of two, over many epochs: the floor is where its definition has
   // it.
