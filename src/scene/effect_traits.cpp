@@ -251,6 +251,7 @@ std::vector<EffectTraits> make_table() {
        .why_no_replay = "the thermostat changes velocities between collisions, which the event log does not hold"},
       {.name = "tumbling",
        .title = "[tumbling]",
+       .absence = "run-and-tumble motion",
        .is_present = has<&Effects::tumbling>,
        .acts = has_other_than_zero<&Effects::tumbling, &Tumbling::rate>,
        .numbers = {number<&Effects::tumbling, &Tumbling::rate>(tumbling_rate, "1 / time", 0.0, 0.1)},
@@ -269,6 +270,7 @@ std::vector<EffectTraits> make_table() {
        .why_no_replay = "tumbles change velocities between collisions, which the event log does not hold"},
       {.name = "brownian",
        .title = "[brownian]",
+       .absence = "Brownian motion",
        .is_present = has<&Effects::brownian>,
        .acts = has_other_than_zero<&Effects::brownian, &Brownian::rate>,
        .numbers = {number<&Effects::brownian, &Brownian::temperature>(brownian_temperature, "energy", 1.0, 1.0),
@@ -378,6 +380,7 @@ std::vector<EffectTraits> make_table() {
        .why_no_replay = "drag changes velocities between collisions, which the event log does not hold"},
       {.name = "non_additivity",
        .title = "[non_additivity]",
+       .absence = "non-additive diameters",
        .is_present = has<&Effects::non_additivity>,
        .acts =
            [](const Effects& e) {

@@ -49,8 +49,9 @@ TEST(CheckCommand, DescribesEachEffectAndNamesTheAbsent) {
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("; restitution 0.9\n"), HasSubstr("  gravity     acceleration (0, -1)\n"),
                                  HasSubstr("  wall        left: thermal, kT = 2\n"),
                                  HasSubstr("  wall        top: restitution 0.8\n"), HasSubstr("  obstacles   1 fixed disk\n"),
-                                 HasSubstr("\nNot simulated: rough disks with spin, growing disks, a thermostat, shear, square "
-                                           "wells, stepped potentials, drag.\n")));
+                                 HasSubstr("\nNot simulated: rough disks with spin, growing disks, a thermostat, run-and-tumble motion, "
+                                           "Brownian motion, shear, square wells, stepped potentials, drag, non-additive "
+                                           "diameters.\n")));
 }
 
 TEST(CheckCommand, SaysWhichEngineRunsTheSceneAndWhyAndHowMuchMemoryItTakes) {

@@ -262,7 +262,10 @@ std::string fault_of_number_name(const std::string& name, const std::vector<std:
   const std::string_view near = detail::nearest_word(name, words);
   if (!near.empty()) return fmt::format("no run has that number; did you mean \"{}\"?", near);
   if (name.starts_with(observables)) return fault_of_observable(name, numbers);
-  return "no run has that number; docs/output.md lists them, such as \"pressure.Z\", and a scene's observables add theirs";
+  std::vector<std::string_view> all;
+  std::copy_if(words.begin(), words.end(), std::back_inserter(all),
+               [](std::string_view number) { return number.find("_error") == std::string_view::npos; });
+  return fmt::format("no run has that number; there are {}", fmt::join(all, ", "));
 }
 
 }  // namespace carom
