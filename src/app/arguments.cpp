@@ -8,6 +8,7 @@
 #include "text/numbers.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 #include <carom/version.hpp>
 
@@ -148,6 +149,85 @@ void require_known_options(const CommandInfo& command, const std::vector<std::st
   }
 }
 
+/// Returns the first line among the command's examples that begins with the command itself.
+std::string example_of(const CommandInfo& command) {
+  const std::string beginning = "carom " + command.name;
+  for (const Example& example : command.examples)
+    if (example.line.starts_with(beginning)) return std::string(example.line);
+  return beginning;
+}
+
+/// Returns the text between two marks of the parser's message; what is behind the first where the second is empty.
+std::string between(const std::string& text, std::string_view first, std::string_view second) {
+  const std::size_t mark = text.find(first);
+  if (mark == std::string::npos) return {};
+  const std::size_t begin = mark + first.size();
+  return text.substr(begin, second.empty() ? std::string::npos : text.find(second, begin) - begin);
+}
+
+/// Returns the first of the words that no argument of the command is left for.
+std::string first_extra(const CLI::App& program, const std::vector<std::string>& words) {
+  const std::vector<std::string> extras = program.remaining(true);
+  const auto found =
+      std::ranges::find_if(words, [&](const std::string& word) { return std::ranges::find(extras, word) != extras.end(); });
+  return found == words.end() ? std::string() : *found;
+}
+
+/// Returns what is wrong with a command line, where the parser does not take it and all its options are known. The parser's own
+/// messages name the option and hold the value; everything else in them is for programmers.
+std::string sentence_of(const CLI::ParseError& error, const CLI::App& program, const CommandInfo& command,
+                        const std::vector<std::string>& words) {
+  const std::string message = error.what();
+  const std::string explained = fmt::format("carom help {} explains it", command.name);
+  const auto option_called = [&](const std::string& name) {
+    const auto found = std::ranges::find_if(
+        command.options, [&](const OptionInfo& option) { return std::ranges::find(option.names, name) != option.names.end(); });
+    return found == command.options.end() ? OptionInfo{} : *found;
+  };
+  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
+    const CLI::Option* missing = program.get_subcommand(command.name)->get_option_no_throw(between(message, "", " is required"));
+    if (missing != nullptr)
+      return fmt::format("{}: {} is missing, {}; for example: {}", command.name, missing->get_type_name(),
+                         in_small(missing->get_description()), example_of(command));
+  }
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+    const std::string extra = first_extra(program, words);
+    std::vector<std::string> arguments;
+    for (const OptionInfo& option : command.options)
+      if (option.is_argument()) arguments.push_back(option.value);
+    const std::string takes = arguments.empty() ? "no arguments" : fmt::format("only {}", fmt::join(arguments, " "));
+    const bool is_change = extra.find('=') != std::string::npos && !option_called("--set").names.empty();
+    return fmt::format("{}: carom {} takes {}; {}", extra, command.name, takes,
+                       is_change ? fmt::format("did you mean --set {}?", shell_quoted(extra))
+                                 : fmt::format("carom help {} lists its options", command.name));
+  }
+  if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr) {
+    const std::string name = between(message, "Could not convert: ", " = ");
+    const OptionInfo option = option_called(name);
+    if (option.value.empty()) return fmt::format("{}: it takes no value; {}", name, explained);
+    return fmt::format("{} {}: {} must be a number{}", name, between(message, " = ", ""), option.value,
+                       option.value == "N" ? ", such as 10" : ", such as 0.5");
+  }
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
+    const std::string name = between(message, "", ":");
+    if (message.find("At Most") != std::string::npos) return fmt::format("{}: it is given more than once; give it once", name);
+    const OptionInfo option = option_called(name);
+    return fmt::format("{}: its value is missing, {} {}; {}", name, name, option.value, in_small(option.description));
+  }
+  if (dynamic_cast<const CLI::ValidationError*>(&error) != nullptr && message.find(" not in range ") != std::string::npos) {
+    const std::string name = between(message, "", ":");
+    return fmt::format("{} {}: {} must be a whole number from {}", name, between(message, "Value ", " not in range "),
+                       option_called(name).value, between(message, " not in range ", ""));
+  }
+  if (dynamic_cast<const CLI::ExcludesError*>(&error) != nullptr)
+    return fmt::format("{} and {} exclude each other; give one of them", between(message, "", " excludes "),
+                       between(message, " excludes ", ""));
+  if (dynamic_cast<const CLI::RequiresError*>(&error) != nullptr)
+    return fmt::format("{}: it is for {} alone; give that too", between(message, "", " requires "),
+                       between(message, " requires ", ""));
+  return fmt::format("{} ({})", message, explained);
+}
+
 }  // namespace
 
 Action parse_arguments(int argc, char** argv) {
@@ -183,10 +263,12 @@ Action parse_arguments(int argc, char** argv) {
     return printing(text.str());
   } catch (const CLI::ParseError& error) {
     if (is_option)
-      throw UsageError(fmt::format("{}: no command begins so; name one first, such as carom run box.toml {}, or see carom help",
-                                   words.front(), words.front()));
-    require_known_options(command_called(commands, words.front()), words);
-    throw UsageError(fmt::format("{} (carom {} --help says what is possible)", error.what(), words.front()));
+      throw UsageError(fmt::format(
+          "{}: carom has no such option; {}", words.front(),
+          meant_before_a_command(commands, std::string_view(words.front()).substr(words.front().starts_with("--") ? 2 : 1))));
+    const CommandInfo& command = command_called(commands, words.front());
+    require_known_options(command, words);
+    throw UsageError(sentence_of(error, program, command, words));
   }
   return action;
 }

@@ -13,12 +13,15 @@ struct Heading {
   std::string_view options;  ///< between blanks
 };
 
-constexpr std::string_view of_the_command = "Options";
+constexpr std::string_view of_the_command = "Options";  ///< for an option that all_headings forgets
 
-constexpr std::array<Heading, 7> all_headings = {{
+constexpr std::array<Heading, 9> all_headings = {{
     {of_the_command, ""},
-    {"Scene", " --set --seed --time --accept-overlap --changes "},
+    {"Scene", " --set --seed --time --accept-overlap --changes --trajectory --every "},
+    {"Extent",
+     " --collisions --spectrum --seeds --longest --no-costs --disks --large --effects --quick --full --only --family --long "},
     {"How it is computed", " --engine --method --dt --stiffness --threads "},
+    {"The picture", " --size --fps --speed --from --to --at --colour --color --trails --trails-of --velocities --dark --bare "},
     {"Results", " --out --force --resume --no-trajectory --xyz --csv --events --unwrapped --report --page --play --open --file "},
     {"Checks", " --verify --verify-horizon "},
     {"Saving", " --checkpoint-every --walltime "},

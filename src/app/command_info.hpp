@@ -46,6 +46,9 @@ struct CommandInfo {
 /// Returns the command of this name, or null.
 [[nodiscard]] const CommandInfo* find_command(std::span<const CommandInfo> commands, std::string_view name);
 
+/// Returns the words with their first letter in small, as a clause of a sentence.
+[[nodiscard]] std::string in_small(std::string words);
+
 /// Returns what bare `carom` prints: the commands to begin with.
 [[nodiscard]] std::string overview(std::span<const CommandInfo> commands);
 /// Returns what `carom help` prints: all commands by purpose.
@@ -64,12 +67,14 @@ struct CommandInfo {
 [[nodiscard]] std::string completion_script(std::string_view shell);
 /// Returns the words that may stand where the last of `words` is being typed, which follow the name of the program. Each line is
 /// a word and, behind a tab, what it means; a word that ends in "=" is continued. A line ":files toml" asks for files of these
-/// endings and directories, ":files" for any file, ":directories" for directories.
+/// endings and directories, ":files" for any file, ":directories" for directories; ":directory NAME" is one of them.
 [[nodiscard]] std::string completions(std::span<const CommandInfo> commands, const std::vector<std::string>& words);
 
 /// Returns the clause that says what was meant by a word that is no command: "did you mean carom run?"
 [[nodiscard]] std::string meant_command(std::span<const CommandInfo> commands, const std::vector<std::string>& words);
 /// Returns the clause that says what was meant by an option that the command does not have. `word` has no dashes.
 [[nodiscard]] std::string meant_option(const CommandInfo& command, std::string_view word);
+/// Returns the clause that says what was meant by an option where a command is expected. `word` has no dashes.
+[[nodiscard]] std::string meant_before_a_command(std::span<const CommandInfo> commands, std::string_view word);
 
 }  // namespace carom::cli

@@ -9,18 +9,22 @@
 #include "scene/value_text.hpp"
 #include "studies/hard_cases/hard_case.hpp"
 #include "studies/validate/trial.hpp"
+#include "studies/validate/validation.hpp"
 
 #include <fmt/format.h>
 #include <carom/scene.hpp>
 #include <carom/simulation.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <stdexcept>
 
 namespace carom::cli {
 
 namespace {
+
+namespace fs = std::filesystem;
 
 using Words = std::vector<std::string>;
 
@@ -31,7 +35,7 @@ struct Candidate {
 
 struct Candidates {
   std::vector<Candidate> words = {};
-  std::string_view files = {};  ///< a line such as ":files toml"; empty where no file is meant
+  std::string files = {};  ///< a line such as ":files toml"; empty where no file is meant
 };
 
 template <class Names>
@@ -63,7 +67,12 @@ Candidates colour_words() {
 
 Candidates trials() {
   Candidates found;
-  for (const validation::Trial& trial : validation::all_trials()) found.words.push_back({std::string(trial.name)});
+  for (const validation::Trial& trial : validation::all_trials()) {
+    const std::string group = group_in_one_word(trial.group);
+    if (std::ranges::find(found.words, group, &Candidate::word) == found.words.end())
+      found.words.push_back({group, "all trials of this group"});
+    found.words.push_back({std::string(trial.name)});
+  }
   return found;
 }
 
@@ -102,9 +111,38 @@ Candidates keys_of_scene(const Words& words) {
   return found;
 }
 
+/// True where carom run has written its files to a directory, or to one within it.
+bool may_hold_a_run(const fs::path& directory) {
+  std::error_code error;
+  for (const char* file : {"summary.json", "checkpoint.h5"})
+    if (fs::exists(directory / file, error)) return true;
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory, fs::directory_options::skip_permission_denied, error))
+    if (entry.is_directory(error)) return true;
+  return false;
+}
+
+/// The directories that begin as `typed` and may hold a run; all of them where there is none, or where the shell knows the place.
+Candidates run_directories(const std::string& typed) {
+  const std::string before = typed.substr(0, typed.rfind('/') + 1);
+  std::vector<std::string> names;
+  std::error_code error;
+  if (!typed.starts_with('~'))
+    for (const fs::directory_entry& entry : fs::directory_iterator(before.empty() ? "." : before, error)) {
+      const std::string name = before + entry.path().filename().string();
+      const bool is_hidden = entry.path().filename().string().starts_with('.');
+      if (name.starts_with(typed) && !is_hidden && entry.is_directory(error) && may_hold_a_run(entry.path()))
+        names.push_back(name);
+    }
+  std::ranges::sort(names);
+  std::string lines;
+  for (const std::string& name : names) lines += (lines.empty() ? ":directory " : "\n:directory ") + name;
+  return {.files = names.empty() ? ":directories" : lines};
+}
+
 Candidates values_of(std::span<const CommandInfo> commands, const std::string& kind, const Words& words) {
   if (kind == "SCENE" || kind == "SWEEP" || kind == "FILE.toml") return {.files = ":files toml"};
-  if (kind == "RUN_DIR" || kind == "DIR") return {.files = ":directories"};
+  if (kind == "RUN_DIR") return run_directories(words.back());
+  if (kind == "DIR") return {.files = ":directories"};
   if (kind == "FILE.html") return {.files = ":files html"};
   if (kind == "FILE" || kind == "RUN_A" || kind == "RUN_B") return {.files = ":files"};
   if (kind == "PRESET") return presets();
@@ -185,7 +223,7 @@ Candidates candidates_for(std::span<const CommandInfo> commands, const Words& wo
 std::string completions(std::span<const CommandInfo> commands, const std::vector<std::string>& words) {
   std::string typed = words.empty() ? "" : words.back();
   const Candidates found = candidates_for(commands, words, typed);
-  std::string text = found.files.empty() ? "" : std::string(found.files) + "\n";
+  std::string text = found.files.empty() ? "" : found.files + "\n";
   for (const Candidate& candidate : found.words)
     if (candidate.word.starts_with(typed))
       text += candidate.meaning.empty() ? candidate.word + "\n" : fmt::format("{}\t{}\n", candidate.word, candidate.meaning);
@@ -216,6 +254,9 @@ _carom() {
   while IFS= read -r line; do
     case $line in
       :directories) add_files -d ;;
+      :directory\ *)
+        compopt -o filenames 2>/dev/null
+        COMPREPLY+=("${line#:directory }") ;;
       :files) add_files -f ;;
       :files\ *)
         add_files -d
@@ -235,11 +276,12 @@ constexpr const char* for_zsh = R"script(#compdef carom
 # zsh completion for carom
 _carom() {
   local line word
-  local -a kinds plain shown open open_shown
+  local -a kinds plain shown open open_shown directories
   for line in "${(@f)$("${(Q)words[1]}" complete "${(@Q)words[2,CURRENT]}" 2>/dev/null)}"; do
     case "$line" in
       ("") ;;
       (:directories) _files -/ ;;
+      (:directory *) directories+=("${line#:directory }") ;;
       (:files) _files ;;
       (:files*)
         kinds=(${(s: :)${line#:files }})
@@ -255,6 +297,7 @@ _carom() {
         fi ;;
     esac
   done
+  if (( $#directories )); then compadd -f -q -S / -a directories; fi
   if (( $#plain )); then compadd -l -d shown -a plain; fi
   if (( $#open )); then compadd -l -S "" -d open_shown -a open; fi
 }
@@ -270,6 +313,8 @@ function __carom_complete
     switch "$line"
       case ':directories'
         __fish_complete_directories $typed
+      case ':directory *'
+        string replace ':directory ' '' -- $line/
       case ':files'
         __fish_complete_path $typed
       case ':files *'

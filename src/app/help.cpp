@@ -76,11 +76,6 @@ std::string examples_text(std::span<const Example> lines) {
   return text;
 }
 
-std::string in_small(std::string words) {
-  words.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(words.front())));
-  return words;
-}
-
 std::string command_rows(std::span<const CommandInfo> commands, std::string_view group) {
   std::string text;
   for (const CommandInfo& command : commands)
@@ -89,6 +84,11 @@ std::string command_rows(std::span<const CommandInfo> commands, std::string_view
 }
 
 }  // namespace
+
+std::string in_small(std::string words) {
+  if (!words.empty()) words.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(words.front())));
+  return words;
+}
 
 std::string overview(std::span<const CommandInfo> commands) {
   constexpr std::array<std::string_view, 5> to_begin_with = {"init", "run", "play", "report", "sweep"};

@@ -104,15 +104,19 @@ std::string what_to_try_next(const RunReport& report, const Scene& scene, const 
   const std::string program = results.program;
   std::error_code error;
   const bool has_scene = std::filesystem::exists(report.scene, error);  // not where a run is resumed from another directory
-  const bool has_trajectory = std::ranges::any_of(
-      results.files, [](const std::string& file) { return std::filesystem::path(file).filename() == "trajectory.h5md"; });
+  const auto has_file = [&](std::string_view name) {
+    return std::ranges::any_of(results.files,
+                               [&](const std::string& file) { return std::filesystem::path(file).filename() == name; });
+  };
+  const bool has_trajectory = has_file("trajectory.h5md");
   std::string text = "\nTry next\n";
   if (report.time_step && has_scene)
     text += fmt::format("  {} --out {}   # the same scene by exact events\n", again(report, scene, results, true),
                         free_name(results, "-exact"));
   if (has_trajectory && report.samples > 0 && scene.output.trajectory)
     text += fmt::format("  {} play {}   # write a page that replays it\n", program, directory);
-  text += fmt::format("  {} report {}   # write a page with numbers and plots\n", program, directory);
+  if (!has_file("report.html"))
+    text += fmt::format("  {} report {}   # write a page with numbers and plots\n", program, directory);
   if (has_trajectory)
     text += fmt::format("  {} info {}\n", program, shell_quoted((results.directory / "trajectory.h5md").string()));
   if (has_scene && scene.effects.collision.rule == CollisionRule::reversal) {

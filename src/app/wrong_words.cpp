@@ -41,7 +41,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 7> words_for
     {"force", " overwrite f replace "},
     {"seed", " random-seed rng-seed s "},
     {"verbose", " debug v "},
-    {"time", " end until t-end "},
+    {"time", " t T end until t-end tend t-max tmax t-final tfinal end-time duration "},
 }};
 
 template <class Table>
@@ -117,6 +117,19 @@ std::string meant_option(const CommandInfo& command, std::string_view word) {
     return fmt::format("did you mean --{}?", near);
   if (changes_scenes) return "what a scene says is changed with --set, such as --set run.time=5";
   return fmt::format("carom {} --help lists them", command.name);
+}
+
+std::string meant_before_a_command(std::span<const CommandInfo> commands, std::string_view word) {
+  for (const std::string_view own : {"help", "version"})
+    if (word.size() > 1 && (own.starts_with(word) || detail::edit_distance(word, own) <= 2))
+      return fmt::format("did you mean carom --{}?", own);
+  const CommandInfo* run = find_command(commands, "run");
+  std::string option;
+  if (run != nullptr) {
+    const std::string meant = meant_option(*run, word);
+    if (const std::size_t at = meant.find("did you mean --"); at == 0) option = " " + meant.substr(13, meant.size() - 14);
+  }
+  return fmt::format("name a command first, such as carom run box.toml{}; carom help lists them", option);
 }
 
 }  // namespace carom::cli

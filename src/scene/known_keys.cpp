@@ -23,13 +23,13 @@ struct Meaning {
   std::string_view words;  ///< between blanks, in small letters without _ and -, but for those of one letter
 };
 
-constexpr std::array<Meaning, 13> meanings = {{
+constexpr std::array<Meaning, 14> meanings = {{
     {"events need no time step; the time between samples is sample_every in [run]",
      " dt deltat timestep step stepsize h saveevery saveinterval sampleinterval outputevery outputinterval "
      "dumpevery "},
     {"events need no steps; a run is as long as time or collisions in [run] says",
-     " steps nsteps numsteps maxsteps timesteps iterations niter t tmax tend tfinal endtime totaltime runtime "
-     "duration "},
+     " steps nsteps numsteps maxsteps timesteps iterations niter "},
+    {"a run is as long as time or collisions in [run] says", " t tmax tend tfinal endtime totaltime runtime duration "},
     {"disks are described in [[disks]], where their number is count",
      " N n num number nparticles numparticles ndisks numdisks nballs natoms particles particle balls atoms "},
     {"the temperature is that of velocities = { temperature = 1.0 } in [[disks]], or of a [thermostat]", " T temp kt kbt "},

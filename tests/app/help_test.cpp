@@ -71,7 +71,9 @@ TEST_F(HelpCommand, ExplainsACommandInGroups) {
   EXPECT_THAT(run, StartsWith("carom run: run a scene and write its results\n\nusage: carom run SCENE [OPTIONS]\n"));
   for (const char* heading : {"Arguments", "Scene", "How it is computed", "Results", "Checks", "Saving", "On the terminal"})
     EXPECT_THAT(run, HasSubstr(std::string("\n") + heading + ":\n"));
-  EXPECT_THAT(run, Not(HasSubstr("\nOptions:\n"))) << "every option of run has a heading";
+  for (const std::string& command : every_command)
+    EXPECT_THAT(printed({"help", command}), Not(HasSubstr("\nOptions:\n")))
+        << "every option of carom " << command << " has a heading";
 }
 
 TEST_F(HelpCommand, LinesFitATerminal) {

@@ -89,11 +89,25 @@ TEST_F(Manual, CompletionKnowsCommandsOptionsAndValues) {
   EXPECT_EQ(complete({"movie", "box", "--colour", "sp"}), "speed\nspecies\n");
   EXPECT_EQ(complete({"run", "box.toml", "--progress", "a"}), "auto\nalways\n");
   EXPECT_THAT(complete({"validate", "--only", "reversal-f"}), HasSubstr("reversal-frozen\n"));
+  EXPECT_THAT(complete({"validate", "--only", "equat"}), StartsWith("equation-of-state\t"));
   EXPECT_THAT(complete({"hardcases", "wall_and"}), HasSubstr("wall_and_lower_disk_at_once\n"));
   EXPECT_THAT(complete({"help", "ru"}), StartsWith("run\t"));
   EXPECT_EQ(complete({"completion", "z"}), "zsh\n");
   EXPECT_THAT(complete({"run", "--seed", "1", "--see"}), Not(HasSubstr("--seed\t"))) << "it is given already";
   EXPECT_EQ(complete({"nonsense", ""}), "");
+}
+
+TEST_F(Manual, CompletionOffersDirectoriesThatHoldARun) {
+  for (const char* name : {"box", "box-analysis", "box-empty", "box sweep/eta=0.1"})
+    std::filesystem::create_directories(directory_.file(name));
+  write_text(directory_.file("box-analysis/analysis.json"), "{}");
+  write_text(directory_.file("box/summary.json"), "{}");
+  write_text(directory_.file("box sweep/eta=0.1/checkpoint.h5"), "");
+  EXPECT_EQ(complete({"play", ""}), ":directory box\n:directory box sweep\n");
+  EXPECT_EQ(complete({"play", "box sweep/"}), ":directory box sweep/eta=0.1\n");
+  EXPECT_EQ(complete({"play", "box-"}), ":directories\n");
+  EXPECT_EQ(complete({"play", "~/"}), ":directories\n");
+  EXPECT_EQ(complete({"play", "nowhere/"}), ":directories\n");
 }
 
 TEST_F(Manual, CompletionKnowsTheKeysOfAScene) {
@@ -115,6 +129,9 @@ TEST_F(Manual, BashCompletesCommandsOptionsAndFiles) {
   EXPECT_EQ(completed("carom hor", 1), "horizon\n");
   EXPECT_EQ(completed("carom run --no-t", 2), "--no-trajectory\n");
   EXPECT_EQ(completed("carom check ga", 2), "gasket gas.toml\n");
+  EXPECT_EQ(completed("carom report ga", 2), "gasket\n");
+  std::filesystem::create_directory(directory_.file("gas-analysis"));
+  write_text(directory_.file("gasket/summary.json"), "{}");
   EXPECT_EQ(completed("carom report ga", 2), "gasket\n");
   EXPECT_EQ(completed("carom info gas.c", 2), "gas.csv\n");
   EXPECT_EQ(completed("carom init pis", 2), "piston\n");

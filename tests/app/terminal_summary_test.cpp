@@ -116,7 +116,10 @@ TEST_F(TerminalSummary, WhatToTryNextIsWhatWorks) {
   report_.scene = CAROM_SOURCE_DIR "/docs/scenes/box.toml";
   scene_.output.trajectory = true;
   report_.samples = 3;
-  EXPECT_THAT(next(), AllOf(HasSubstr("carom info out/trajectory.h5md"), HasSubstr("carom play out ")));
+  EXPECT_THAT(next(),
+              AllOf(HasSubstr("carom info out/trajectory.h5md"), HasSubstr("carom play out "), HasSubstr("carom report")));
+  const std::string with_a_page = cli::terminal_summary(report_, scene_, {"out", {"out/report.html"}, "carom"});
+  EXPECT_THAT(with_a_page.substr(with_a_page.find("Try next")), Not(HasSubstr("carom report")));
   report_.samples = 0;  // events or observables alone
   EXPECT_THAT(next(), AllOf(HasSubstr("carom info out/trajectory.h5md"), Not(HasSubstr("carom play"))));
   report_.samples = 3;

@@ -166,6 +166,7 @@ TEST(ValidationTrials, OfAQuickValidationAreThoseThatAreNotForTheFullOneAlone) {
   EXPECT_LT(quick.size(), full.size());
   EXPECT_EQ(full.size(), validation::all_trials().size());
   EXPECT_EQ(chosen_trials({.only = {"transition-0.708"}}).size(), 1U) << "one that is named runs in any case";
+  EXPECT_EQ(chosen_trials({.only = {"equation-of-state"}}).size(), chosen_trials({.only = {"equation of state"}}).size());
   EXPECT_THROW((void)chosen_trials({.only = {"no-such"}}), std::invalid_argument);
 }
 

@@ -52,18 +52,24 @@ std::size_t Validation::failed() const {
   return sum;
 }
 
+std::string group_in_one_word(std::string group) {
+  std::replace(group.begin(), group.end(), ' ', '-');
+  return group;
+}
+
 std::vector<validation::Trial> chosen_trials(const ValidateOptions& options) {
   std::vector<validation::Trial> trials;
   const auto& all = validation::all_trials();
   for (const std::string& name : options.only)
-    if (std::none_of(all.begin(), all.end(),
-                     [&](const validation::Trial& trial) { return trial.name == name || trial.group == name; }))
+    if (std::none_of(all.begin(), all.end(), [&](const validation::Trial& trial) {
+          return trial.name == name || trial.group == name || group_in_one_word(trial.group) == name;
+        }))
       throw std::invalid_argument(name);
   const auto asked_for = [&](const std::string& name) {
     return std::find(options.only.begin(), options.only.end(), name) != options.only.end();
   };
   for (const validation::Trial& trial : all) {
-    const bool with_its_group = options.only.empty() || asked_for(trial.group);
+    const bool with_its_group = options.only.empty() || asked_for(trial.group) || asked_for(group_in_one_word(trial.group));
     if (asked_for(trial.name) || (with_its_group && (options.full || !trial.only_full))) trials.push_back(trial);
   }
   return trials;

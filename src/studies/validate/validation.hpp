@@ -33,7 +33,11 @@ struct ValidateHooks {
   std::function<void(const TrialResult& result)> done = {};
 };
 
-/// Returns the trials that `options` name. Throws std::invalid_argument where there is no such trial and no such group.
+/// Returns the name of a group with hyphens for blanks, as a shell completes it: "equation-of-state".
+[[nodiscard]] std::string group_in_one_word(std::string group);
+
+/// Returns the trials that `options` name; a group has its own name or that of one word. Throws std::invalid_argument where there
+/// is no such trial and no such group.
 [[nodiscard]] std::vector<validation::Trial> chosen_trials(const ValidateOptions& options);
 
 /// Runs the trials that `before` does not hold already. A trial that cannot be run is one that fails.
