@@ -6,8 +6,8 @@
 Runs `PROGRAM validate --seed K --out DIRECTORY/K` for K = 1 to SEEDS (20; or a list, 1,2,5), but for those that calibration.csv
 beside this file or DIRECTORY (calibration) holds already, and goes on with one that was interrupted. Adds what it finds to
 calibration.csv: remove that file where the checks themselves have changed. Takes the checks that calibrate (see docs/output.md): z
-of these must be normal with variance 1. Prints how well they are and writes calibration.svg beside this file. Needs
-python3-matplotlib.
+of these must be normal with variance 1. Prints how well they are, by group and by state of the equation of state too, and writes
+calibration.svg beside this file. Needs python3-matplotlib.
 """
 import csv
 import json
@@ -86,11 +86,45 @@ def mean_over_seeds(f):
 
 def chi_squared_above(x, freedom):
     """The probability that chi squared exceeds x, for an even number of degrees of freedom."""
-    term = total = 1.0
-    for k in range(1, freedom // 2):
-        term *= 0.5 * x / k
-        total += term
-    return math.exp(-0.5 * x) * total
+    if x == 0.0:
+        return 1.0
+    logs = [k * math.log(0.5 * x) - math.lgamma(k + 1) - 0.5 * x for k in range(freedom // 2)]
+    return math.fsum(math.exp(one) for one in logs)
+
+
+def chance_interval(freedom):
+    """Returns between which values chi squared over its degrees of freedom lies in 19 of 20 cases, for an even number of them."""
+    def quantile(above):
+        low, high = 0.0, 10.0 * freedom + 100.0
+        for _ in range(100):
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if chi_squared_above(middle, freedom) > above else (low, middle)
+        return low / freedom
+
+    return quantile(0.975), quantile(0.025)
+
+
+def chi_squared_by_group():
+    """Prints chi squared over the number of deviations for each group, and for each state of the equation of state: of every trial the
+    first check that calibrates, as `carom validate` counts."""
+    listed = subprocess.run([program, "validate", "--list"], check=True, capture_output=True, text=True).stdout
+    first = {}
+    for trial, number in by_check:
+        if trial not in first or int(number) < int(first[trial]):
+            first[trial] = number
+    even = seeds - seeds % 2
+    print("| group | deviations | chi squared over their number | chance, 19 of 20 cases |\n|---|---|---|---|")
+    for lines in listed.strip().split("\n\n"):
+        group, *trials = lines.splitlines()
+        names = [name for name in (line.split()[0] for line in trials) if name in first]
+        squares = {name: sum(z * z for z in by_check[name, first[name]][:even]) for name in names}
+        if not names:
+            continue
+        n = even * len(names)
+        print("| {} | {} | {:.2f} | {:.2f} to {:.2f} |".format(group, n, sum(squares.values()) / n, *chance_interval(n)))
+        if group == "equation of state":
+            states = [f"| {name} | {even} | {square / even:.2f} | {{:.2f}} to {{:.2f}} |".format(*chance_interval(even)) for name, square in squares.items()]
+            print("\n".join(states))
 
 
 print(f"{seeds} seeds: {judged} checks judged, {failed} failed; {len(by_check)} checks calibrate: {n} values of z")
@@ -112,6 +146,8 @@ if seeds % 2 == 0:
           f"{0.01 * len(scatter):.1f} each")
     for p, (trial, number), square in scatter[:3] + scatter[-3:]:
         print(f"  {square:.2f} (probability to exceed it {p:.2g}): {trial}, check {number}")
+
+chi_squared_by_group()
 
 figure, axes = plt.subplots(figsize=(6.0, 3.6))
 edges = [-4.0 + 0.25 * k for k in range(33)]
