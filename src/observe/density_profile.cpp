@@ -1,5 +1,5 @@
-// Disks per area along an axis, of all and of each species. Average over time. The bins are those of the scene's box, whatever
-// walls across this axis do; they are as long as those across the other axis are apart.
+// Disks per area along an axis, of all and of each species. Average over time. The bins cover all that the walls across this axis
+// reach in the run, as far as that is known when it begins; they are as long as the walls across the other axis are apart.
 //
 // In a circular box the bins are rings of one width about the centre, or strips across an axis, and the area is that of a ring,
 // or of the part of a strip inside the circle. As between walls, no centre comes nearer to the rim than its radius.
@@ -9,6 +9,7 @@
 #include "observe/geometry.hpp"
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"
+#include "observe/wall_reach.hpp"
 #include "scene/observables_known.hpp"
 
 #include <algorithm>
@@ -33,12 +34,19 @@ class DensityProfile final : public SavedObservable<DensityProfile> {
     for (std::size_t b = 0; b < bins_ && run.scene.box.is_circle; ++b) areas_.push_back(area_of(b));
   }
 
+  void start(const State& state) override {
+    if (run_.scene.box.is_circle) return;
+    const Box reach = reach_of_walls(run_, state);
+    from_ = reach.lower[axis_];
+    width_ = reach.lengths()[axis_] / static_cast<double>(bins_);
+  }
+
   void sample(const State& state, const Totals&) override {
     std::vector<double> counts(kinds_ * bins_);
     seen_ += run_.disks.count();
     for (std::size_t i = 0; i < run_.disks.count(); ++i) {
       const double bin = (place_of(state.positions.col(static_cast<Eigen::Index>(i))) - from_) / width_;
-      if (!(bin >= 0.0 && bin < static_cast<double>(bins_))) {  // beyond where a wall that moves began
+      if (!(bin >= 0.0 && bin < static_cast<double>(bins_))) {  // behind a wall whose way was not known
         ++outside_;
         continue;
       }
@@ -67,7 +75,7 @@ class DensityProfile final : public SavedObservable<DensityProfile> {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(densities_, seen_, outside_);
+    archive(from_, width_, densities_, seen_, outside_);
   }
 
  private:

@@ -24,6 +24,7 @@
 #include "observe/near_pairs.hpp"
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"
+#include "observe/wall_reach.hpp"
 #include "scene/contact_scales.hpp"
 
 #include <algorithm>
@@ -114,17 +115,16 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
         potential_(run.acting->potential_steps()),
         scales_(contact_scales<double>(run.scene.effects, run.disks)),
         coming_(static_cast<std::size_t>(cells_[0] * cells_[1])) {
-    for (int axis = 0; axis < 2; ++axis)
-      width_[axis] = run.scene.box.lengths()[axis] / static_cast<double>(cells_[static_cast<std::size_t>(axis)]);
-    areas_.assign(coming_.size(), width_[0] * width_[1]);
-    for (std::size_t c = 0; c < areas_.size() && run.scene.box.is_circle; ++c)
-      areas_[c] = area_in_circle(rectangle_of(c), run.scene.box);
+    lay_grid(run.scene.box);
   }
 
   [[nodiscard]] bool follows_collisions() const override { return follows_; }
   [[nodiscard]] bool needs_places() const override { return true; }
 
-  void start(const State& state) override { spins_ = state.spins; }
+  void start(const State& state) override {
+    lay_grid(reach_of_walls(run_, state));
+    spins_ = state.spins;
+  }
 
   void collisions(std::span<const PairCollision> collisions) override {
     for (const PairCollision& met : collisions) {
@@ -150,7 +150,7 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
     for (std::size_t i = 0; i < run_.disks.count(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
       CellSums* const cell = cell_at(state.positions.col(k));
-      if (cell == nullptr) {  // beyond where a wall that moves began
+      if (cell == nullptr) {  // behind a wall whose way was not known
         ++outside_;
         continue;
       }
@@ -199,7 +199,7 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(stretches_, coming_, steps_, steps_of_stretch_, spins_, seen_, outside_);
+    archive(lower_, upper_, width_, areas_, stretches_, coming_, steps_, steps_of_stretch_, spins_, seen_, outside_);
   }
 
  private:
@@ -243,12 +243,21 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
     return energies;
   }
 
+  /// Divides the rectangle of a box into cells.
+  void lay_grid(const Box& box) {
+    lower_ = box.lower, upper_ = box.upper;
+    for (int axis = 0; axis < 2; ++axis)
+      width_[axis] = box.lengths()[axis] / static_cast<double>(cells_[static_cast<std::size_t>(axis)]);
+    areas_.assign(coming_.size(), width_[0] * width_[1]);
+    for (std::size_t c = 0; c < areas_.size() && box.is_circle; ++c) areas_[c] = area_in_circle(rectangle_of(c), box);
+  }
+
   /// Returns the rectangle of a cell.
   [[nodiscard]] Rectangle rectangle_of(std::size_t c) const {
     const auto across = static_cast<std::size_t>(cells_[0]);
     const std::size_t column = c % across, row = c / across;
     const Eigen::Vector2d at(static_cast<double>(column), static_cast<double>(row));
-    const Eigen::Vector2d lower = run_.scene.box.lower + at.cwiseProduct(width_);
+    const Eigen::Vector2d lower = lower_ + at.cwiseProduct(width_);
     return {lower, lower + width_};
   }
 
@@ -257,11 +266,11 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
     std::array<std::int64_t, 2> at{};
     for (int axis = 0; axis < 2; ++axis) {
       const std::int64_t count = cells_[static_cast<std::size_t>(axis)];
-      const double cell = std::floor((place[axis] - run_.scene.box.lower[axis]) / width_[axis]);
+      const double cell = std::floor((place[axis] - lower_[axis]) / width_[axis]);
       auto number = static_cast<std::int64_t>(cell);
       if (run_.scene.box.periodic(axis))
         number = ((number % count) + count) % count;
-      else if (number == count && place[axis] <= run_.scene.box.upper[axis])
+      else if (number == count && place[axis] <= upper_[axis])
         --number;
       if (number < 0 || number >= count) return nullptr;
       at[static_cast<std::size_t>(axis)] = number;
@@ -275,7 +284,7 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
   void along_line(const Eigen::Vector2d& start, const Eigen::Vector2d& line, F&& f) {
     crossings_.clear();
     for (int axis = 0; axis < 2; ++axis) {
-      const double from = (start[axis] - run_.scene.box.lower[axis]) / width_[axis], to = from + line[axis] / width_[axis];
+      const double from = (start[axis] - lower_[axis]) / width_[axis], to = from + line[axis] / width_[axis];
       const double low = std::min(from, to), high = std::max(from, to);
       for (double edge = std::floor(low) + 1.0; edge < high; edge += 1.0) crossings_.push_back((edge - from) / (to - from));
     }
@@ -292,8 +301,8 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
     std::array<Column, 2> places{{{"x", "length", {}}, {"y", "length", {}}}};
     for (std::int64_t row = 0; row < cells_[1]; ++row)
       for (std::int64_t column = 0; column < cells_[0]; ++column) {
-        places[0].values.push_back(run_.scene.box.lower[0] + (static_cast<double>(column) + 0.5) * width_[0]);
-        places[1].values.push_back(run_.scene.box.lower[1] + (static_cast<double>(row) + 0.5) * width_[1]);
+        places[0].values.push_back(lower_[0] + (static_cast<double>(column) + 0.5) * width_[0]);
+        places[1].values.push_back(lower_[1] + (static_cast<double>(row) + 0.5) * width_[1]);
       }
     return places;
   }
@@ -351,7 +360,7 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
   bool follows_;
   std::vector<PotentialStep> potential_;  ///< of pairs; empty without one
   ContactScales<double> scales_;
-  Eigen::Vector2d width_;
+  Eigen::Vector2d lower_, upper_, width_;         ///< of the grid, and of a cell
   std::vector<double> areas_;                     ///< of the cells, within a circular box
   std::vector<std::vector<CellSums>> stretches_;  ///< that have ended, in order of time; each by cell, row after row
   std::vector<CellSums> coming_;                  ///< the stretch that has begun

@@ -18,12 +18,14 @@
 
 namespace carom {
 
-/// Returns the remark on an observable of places whose bins or cells are those of the box of the start; empty where no disk was
-/// outside of them. `outside` of the `seen` disks of all samples were.
+/// Returns the remark on an observable of places whose bins or cells end where walls were known to come (reach_of_walls); empty
+/// where no disk was outside of them. `outside` of the `seen` disks of all samples were.
 [[nodiscard]] inline std::string note_on_disks_outside(std::uint64_t outside, std::uint64_t seen) {
   if (outside == 0) return {};
-  return fmt::format("bins end where the walls began: {:.3g} % of the disks were beyond, behind walls that had moved outward",
-                     100.0 * static_cast<double>(outside) / static_cast<double>(seen));
+  return fmt::format(
+      "{:.3g} % of the disks were beyond the bins, behind walls that had moved further outward than was known "
+      "when the run began",
+      100.0 * static_cast<double>(outside) / static_cast<double>(seen));
 }
 
 /// `Self` derives from this, and lists what it has gathered in `template <class Archive> void serialize(Archive& archive)`. What
