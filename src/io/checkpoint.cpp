@@ -29,7 +29,7 @@ namespace {
 
 constexpr std::size_t head_bytes = 512;
 /// Version of the format of the parts' contents; a program reads only its own.
-constexpr std::uint64_t checkpoint_format = 5;
+constexpr std::uint64_t checkpoint_format = 6;
 
 /// Returns the text before the HDF5 file, which is all of it, so that nothing in it can change unnoticed.
 std::string head_for(std::uint64_t bytes, const XXH128_hash_t& sum) {

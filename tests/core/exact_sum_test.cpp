@@ -57,15 +57,16 @@ double found(const std::vector<double>& terms) {
   return sum.value();
 }
 
-/// Any finite bits, or terms that nearly cancel.
+/// Any finite bits, terms that nearly cancel, or terms of about one size, which are split.
 std::vector<double> any_terms(std::mt19937_64& random, int count) {
   std::vector<double> terms;
-  const int kind = static_cast<int>(random() % 3);
+  const int kind = static_cast<int>(random() % 4), size = static_cast<int>(random() % 1700) - 950;
   for (int k = 0; k < count; ++k) {
     double term = std::bit_cast<double>(random());
     while (!std::isfinite(term)) term = std::bit_cast<double>(random());
     if (kind == 1) term = std::ldexp(static_cast<double>(random() % 1000) - 499.5, static_cast<int>(random() % 120) - 1074);
     if (kind == 2 && k % 2 == 1) term = std::nextafter(-terms.back(), 0.0);
+    if (kind == 3) term = std::ldexp(static_cast<double>(random() >> 11 | 1), size + static_cast<int>(random() % 39));
     if (std::abs(term) > 1e300) term *= 1e-10;
     terms.push_back(term);
   }
@@ -93,6 +94,25 @@ TEST(ExactSum, KeepsWhatDoublesLose) {
   EXPECT_EQ(found({1.0, 0x1p-53, smallest}), std::nextafter(1.0, 2.0));
   EXPECT_EQ(found({-1.0, -0x1p-53, -smallest}), -std::nextafter(1.0, 2.0));
   EXPECT_EQ(found(std::vector<double>(1'000'000, 0.1)), exact(std::vector<double>(1'000'000, 0.1)));
+}
+
+TEST(ExactSum, LosesNothingOfTermsAsSmallAndAsLargeAsAreSplitBesideTheFirst) {
+  // All terms have one sign, and sums of multiples and of rests are as long as they can be, if terms are split at 2^(exponent -
+  // 25) or next to it: the large terms end with that digit, and the small ones have the largest rest that does not end before
+  // they do. The last term leaves only what a double cannot hold of the sum of the others.
+  for (const int exponent : {-960, -900, 0, 900, 960})
+    for (const int up : {-19, -18, 0, 18, 19})
+      for (const int down : {-19, -18})
+        for (const int split : {-24, -25, -26})
+          for (const int one_of : {1, 3})
+            for (const double sign : {1.0, -1.0}) {
+              const double large = std::ldexp(sign * (2.0 - std::ldexp(1.0, split - up)), exponent + up);
+              const double small = std::ldexp(sign * (1.0 + std::ldexp(1.0, split - 1 - down) - 0x1p-52), exponent + down);
+              std::vector<double> terms = {std::ldexp(sign, exponent)};
+              for (int k = 0; k < 1501; ++k) terms.push_back(k % one_of == 0 ? large : small);
+              terms.push_back(-exact(terms));
+              ASSERT_EQ(found(terms), exact(terms)) << exponent << " " << up << " " << down;
+            }
 }
 
 TEST(ExactSum, OfNothingIsPlusZero) {
