@@ -2,12 +2,16 @@
 
 #include "observe/energy.hpp"
 #include "observe/mechanics.hpp"
+#include "observe/observed_system.hpp"
 #include "support/block_means.hpp"
 #include "support/effect_scenes.hpp"
 #include "theory/barometer.hpp"
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace carom::test {
@@ -64,6 +68,44 @@ TEST(PhysicsGravity, ADiluteGasFollowsTheLawOfTheBarometer) {
     RecordProperty((testing::Message() << "layer_" << l).GetString(), testing::PrintToString(count[l].mean() / disks));
     EXPECT_NEAR(count[l].mean(), disks, 5 * count[l].error()) << "layer " << l;
     EXPECT_LT(count[l].error(), 0.1 * disks);
+  }
+}
+
+TEST(PhysicsGravity, EveryLayerBearsTheWeightAboveIt) {
+  // By the fields of a dilute gas over a thermal floor, in layers of a fifth of the height over which the density falls by e.
+  // d P_yy / dy = -n m g, so that the mean of P_yy over layer k is what the ceiling presses, the weight of all layers above and
+  // that part of its own which is above the height in question: n_k b / 2 and, because there are more disks in its lower half,
+  // (n_{k+1} - n_{k-1}) b / 24, to the fourth power of b. Over a time t the gas keeps m v N / t of momentum at most.
+  constexpr double g = 0.1, radius = 0.1, width = 40.0, height = 60.0, layer = 2.0;
+  constexpr std::size_t layers = 30;
+  Scene scene = scene_of(box_of(width, height, Boundary::periodic, Boundary::walls),
+                         {species_of(200, radius, 1.0, RandomPositions{}, MaxwellVelocities{1.0})});
+  scene.effects.gravity = Gravity{{0.0, -g}};
+  scene.effects.walls[2].temperature = 1.0;
+  scene.run = {.time = 8000.0, .equilibrate = Run::Equilibrate{.time = 500.0}};
+  scene.observe = {{.name = "fields", .every = 2.0, .cells = std::array<std::int64_t, 2>{1, layers}}};
+  const Observed run = observe(scene, 8000.0);
+  const std::vector<double>&density = run.column("fields", 0, "density"),
+        &density_error = run.column("fields", 0, "density_error"), &stress = run.column("fields", 0, "stress_yy"),
+        &stress_error = run.column("fields", 0, "stress_yy_error");
+  const double ceiling = run.totals.wall_impulse[3] / (run.time * width);
+  EXPECT_NEAR((run.totals.wall_impulse[2] - run.totals.wall_impulse[3]) / run.time, 200.0 * g, 200.0 * 3.0 / run.time)
+      << "the walls bear the weight";
+
+  constexpr std::size_t steps = 2 * 299;  // of height 0.1 where disks can be, from 0.1 to 59.9
+  const std::vector<double> expected = theory::barometer(g, 200.0 / width, radius, height - 2.0 * radius, steps);
+  double above = ceiling, above_error = 0.0;
+  for (std::size_t k = layers - 2; k >= 1; --k) {  // a wall touches the outermost layers
+    above += g * density[k + 1] * layer, above_error += g * density_error[k + 1] * layer;
+    if (k > 12) continue;  // beyond lies less than a tenth of the gas
+    const double weight = above + g * layer * (density[k] / 2.0 + (density[k + 1] - density[k - 1]) / 24.0);
+    // The densities of layers depend on each other: their errors are added as if they were the same.
+    const double error = stress_error[k] + above_error + g * layer * density_error[k] / 2.0;
+    EXPECT_NEAR(stress[k], weight, 4.0 * error + 3.0 * 200.0 / run.time / width) << "layer " << k;
+    EXPECT_LT(error, 0.05 * weight);
+    double barometer = 0.0;
+    for (std::size_t s = 20 * k - 1; s < 20 * k + 19; ++s) barometer += expected[s] / 20.0;  // from 2 k to 2 k + 2
+    EXPECT_NEAR(density[k], barometer, 5.0 * density_error[k]) << "layer " << k;
   }
 }
 
