@@ -58,7 +58,7 @@ def make_players(carom, work, output, wanted):
     kept.mkdir(parents=True, exist_ok=True)
     runs = gallery_runs()
     commands = {name: f"{command} && carom play {directory} -o {name}.html" for name, (command, directory) in runs.items()}
-    beside = "carom compare docs/images/accuracy_moderate.toml --dt 0.02 --no-costs --play guarded:0.02 --out beside -q"
+    beside = "carom compare docs/images/accuracy_moderate.toml --dt 0.02 --time 3 --longest 0.02 --no-costs --play guarded:0.02 --out beside -q"
     commands["side_by_side"] = f"{beside} && mv beside/side_by_side.html side_by_side.html"
     commands = {name: command for name, command in commands.items() if wanted is None or name in wanted}
     for name, command in commands.items():

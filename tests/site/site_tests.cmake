@@ -1,5 +1,6 @@
 # The site of docs/ is made without a warning and without a broken link, and its pages show no error in a browser. Of the players it has
-# two, which are made in a moment; ./bootstrap site makes all. Where Sphinx, Doxygen, node or Chromium is not to be had, the entries are there and say so.
+# two, which are made in a moment; site.whole, which is slow, has all and the playground. Where Sphinx, Doxygen, node or Chromium is not
+# to be had, the entries are there and say so.
 set(site_skipped "${python_skipped}")
 if(NOT site_skipped)
   foreach(module sphinx myst_parser furo breathe)
@@ -30,3 +31,14 @@ endif()
 set_tests_properties(site.builds PROPERTIES FIXTURES_SETUP site)
 set_tests_properties(site.pages PROPERTIES FIXTURES_REQUIRED site)
 set_tests_properties(site.builds site.pages PROPERTIES LABELS site TIMEOUT 600 SKIP_REGULAR_EXPRESSION "^skipped: ")
+
+if(site_skipped)
+  add_test(NAME site.whole COMMAND ${CMAKE_COMMAND} -E echo "skipped: ${site_skipped}")
+else()
+  add_test(NAME site.whole
+           COMMAND ${CMAKE_COMMAND} -D SOURCE_DIR=${PROJECT_SOURCE_DIR} -D OUTPUT=${PROJECT_BINARY_DIR}/site-whole -D WASM_DIR=${PROJECT_BINARY_DIR}/wasm
+                   -D CAROM=$<TARGET_FILE:carom_cli> -D PYTHON=${Python_EXECUTABLE} -D PYTHON_PACKAGE=${PROJECT_BINARY_DIR}/python
+                   -P ${CMAKE_CURRENT_LIST_DIR}/whole.cmake)
+endif()
+set_tests_properties(site.whole PROPERTIES LABELS "site;slow" TIMEOUT 7200 SKIP_REGULAR_EXPRESSION "skipped: ")
+set_tests_properties(site.whole PROPERTIES RESOURCE_LOCK wasm)
