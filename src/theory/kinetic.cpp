@@ -14,23 +14,43 @@
 
 namespace carom::theory {
 
-double collision_rate(std::span<const Component> gas, double kT) {
-  double radii = 0.0, squares = 0.0;  // per area
-  for (const Component& kind : gas) {
-    radii += kind.density * kind.radius;
-    squares += kind.density * kind.radius * kind.radius;
+namespace {
+
+/// The contact values of a gas, by the harmonic mean of two radii.
+struct ContactForm {
+  double bare = 1.0, crowding = 0.0, ratio = 0.0;
+  explicit ContactForm(std::span<const Component> gas) {
+    double radii = 0.0, squares = 0.0;  // per area
+    for (const Component& kind : gas) {
+      radii += kind.density * kind.radius;
+      squares += kind.density * kind.radius * kind.radius;
+    }
+    const double eta = std::numbers::pi * squares;
+    if (!(eta > 0.0)) return;
+    bare = 1.0 / (1.0 - eta);
+    crowding = contact_value(eta) - bare;  // g - 1 / (1 - eta) of equal disks
+    ratio = radii / squares;
   }
-  const double eta = std::numbers::pi * squares;
-  if (!(eta > 0.0)) return 0.0;
-  const double bare = 1.0 / (1.0 - eta);
-  const double crowding = (kolafa_rottner(eta) - 1.0) / (2.0 * eta) - bare;  // g - 1 / (1 - eta) of equal disks
+  [[nodiscard]] double of(double radius_i, double radius_j) const {
+    return bare + crowding * (2.0 * radius_i * radius_j / (radius_i + radius_j)) * ratio;
+  }
+};
+
+}  // namespace
+
+double contact_value(std::span<const Component> gas, double radius_i, double radius_j) {
+  return ContactForm(gas).of(radius_i, radius_j);
+}
+
+double collision_rate(std::span<const Component> gas, double kT) {
+  const ContactForm g(gas);
   double rate = 0.0;
   for (const Component& i : gas)
     for (const Component& j : gas) {
-      const double sigma = i.radius + j.radius;
-      const double g = bare + crowding * (2.0 * i.radius * j.radius / sigma) * (radii / squares);
-      const double reduced_mass = i.mass * j.mass / (i.mass + j.mass);
-      rate += 0.5 * i.density * j.density * sigma * g * std::sqrt(2.0 * std::numbers::pi * kT / reduced_mass);
+      const double sigma = i.radius + j.radius, reduced_mass = i.mass * j.mass / (i.mass + j.mass);
+      if (!(sigma > 0.0)) continue;
+      rate +=
+          0.5 * i.density * j.density * sigma * g.of(i.radius, j.radius) * std::sqrt(2.0 * std::numbers::pi * kT / reduced_mass);
     }
   return rate;
 }

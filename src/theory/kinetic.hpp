@@ -14,11 +14,15 @@ struct Component {
   double mass = 0.0;
 };
 
+/// Contact value g_ij of disks of these radii in a gas. It has the form that scaled particle theory gives it, 1 / (1 - eta) +
+/// c (sigma_i sigma_j / sigma_ij) <sigma> / <sigma^2>, with c such that disks of one size have contact_value(eta): good to the
+/// error of that for equal disks, to one or two per cent for mixtures. Requires a packing fraction above 0 and of at most 0.69
+/// (fluid).
+[[nodiscard]] double contact_value(std::span<const Component> gas, double radius_i, double radius_j);
+
 /// Pair collisions per area and time at temperature kT > 0: half the sum of n_i omega_ij over all kinds i and j, with
-/// omega_ij = n_j sigma_ij g_ij sqrt(2 pi kT / mu_ij). The contact value g_ij has the form that scaled
-/// particle theory gives it, 1 / (1 - eta) + c (sigma_i sigma_j / sigma_ij) <sigma> / <sigma^2>, with c such that disks of one
-/// size collide as often as kolafa_rottner() says: good to the error of that for equal disks, to one or two per cent for
-/// mixtures. Requires a packing fraction of at most 0.69 (fluid).
+/// omega_ij = n_j sigma_ij g_ij sqrt(2 pi kT / mu_ij), g_ij by contact_value(). Requires a packing fraction of at most 0.69
+/// (fluid).
 [[nodiscard]] double collision_rate(std::span<const Component> gas, double kT);
 
 /// Contact value of g(r) from the equation of state: (Z - 1) / (2 eta), Z after Kolafa and Rottner. Requires 0 < eta <= 0.69.

@@ -36,6 +36,41 @@ std::vector<double> steps_over(const Table& table) {
   return steps;
 }
 
+/// Returns the contact value that "g_big_small", "g_rate" or any other of contact_values names, of smooth disks in a periodic box
+/// of this packing fraction on which nothing else acts; nothing of others.
+std::optional<Expected> contact_value(const std::string& scalar, const TheorySource& of, double eta) {
+  const Scene& scene = of.scene;
+  const std::vector<double>& radius = of.disks.radius;
+  const bool is_fluid = scene.box.periodic(0) && scene.box.periodic(1) && scene.effects.neutral() &&
+                        scene.effects.collision.rule == CollisionRule::specular && eta <= densest_fluid;
+  if (!is_fluid || radius.size() < 3) return {};
+  const ObservedRun run{scene, of.disks};
+  std::vector<double> counts(run.species_count()), radii(run.species_count());
+  for (std::size_t i = 0; i < radius.size(); ++i) {
+    const auto species = static_cast<std::size_t>(of.disks.species[i]);
+    if (counts[species] > 0.0 && radius[i] != radii[species]) return {};  // g is a mean over sizes there
+    radii[species] = radius[i];
+    counts[species] += 1.0;
+  }
+  for (std::size_t a = 0; a < counts.size(); ++a)
+    for (std::size_t b = a; b < counts.size(); ++b) {
+      const std::string pair = run.suffix(a) + run.suffix(b);
+      if (scalar != "g" + pair && scalar != "g_rate" + pair) continue;
+      if (all_equal(radius)) {  // it follows from Z, whatever masses and names are
+        const auto disks = static_cast<std::int64_t>(radius.size());
+        const bool is_finite = eta <= densest_finite;
+        const double Z = is_finite ? theory::kolafa_rottner_finite(eta, disks) : theory::kolafa_rottner(eta);
+        return Expected{(Z - 1.0) * static_cast<double>(disks) / (2.0 * eta * static_cast<double>(disks - 1)),
+                        is_finite ? fmt::format("Kolafa & Rottner, N = {}", disks) : "Kolafa & Rottner, infinitely many disks"};
+      }
+      std::vector<theory::Component> gas;
+      for (std::size_t s = 0; s < counts.size(); ++s)
+        gas.push_back({.density = counts[s] / scene.box.area(), .radius = radii[s]});
+      return Expected{theory::contact_value(gas, radii[a], radii[b]), "of the form of scaled particle theory, approximate"};
+    }
+  return {};
+}
+
 }  // namespace
 
 RunTheory::RunTheory(const RunReport& report, std::optional<TheorySource> source)
@@ -255,6 +290,8 @@ std::optional<Expected> RunTheory::of(const std::string& observable, const std::
     if (scalar == "kurtosis") return Expected{law.kurtosis(), source};
     if (scalar == "kurtosis_x" || scalar == "kurtosis_y") return Expected{law.axis_kurtosis(), source};
   }
+  if (observable == "contact_values" && source_ && source_->scene.changes.empty() && report_.measured && kT_ > 0.0)
+    return contact_value(scalar, *source_, eta_);
   if (!Z_) return {};
   if (name == "pressure.Z") return Z_;
   if (name == "pressure.reduced") return Expected{4.0 * eta_ / pi * Z_->value, Z_->source};

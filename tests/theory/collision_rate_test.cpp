@@ -36,6 +36,17 @@ TEST(CollisionRate, IsZeroWhereNobodyIs) {
   EXPECT_EQ(theory::collision_rate(std::vector<Component>{{0.0, 0.5, 1.0}}, 1.0), 0.0);
 }
 
+TEST(ContactValueOfAMixture, IsThatOfTheFluidForOneSizeAndOfRoomForAPoint) {
+  const std::vector<Component> alike = {{0.2, 0.5, 1.0}, {0.25, 0.5, 7.0}};
+  const double eta = 0.45 * std::numbers::pi * 0.25;
+  EXPECT_NEAR(theory::contact_value(alike, 0.5, 0.5), theory::contact_value(eta), 1e-14 * theory::contact_value(eta));
+  // A point finds room in 1 - eta of the area, wherever that is.
+  const std::vector<Component> sizes = {{0.2, 0.5, 1.0}, {0.3, 0.25, 1.0}};
+  const double filled = std::numbers::pi * (0.2 * 0.25 + 0.3 * 0.0625);
+  EXPECT_NEAR(theory::contact_value(sizes, 0.0, 0.5), 1.0 / (1.0 - filled), 1e-14);
+  EXPECT_GT(theory::contact_value(sizes, 0.5, 0.5), theory::contact_value(sizes, 0.25, 0.5));
+}
+
 TEST(CollisionRate, OfAMixtureIsMetBySimulation) {
   Scene scene = mixture_scene(1000, 0.4, Boundary::periodic);
   std::vector<Component> gas;

@@ -12,6 +12,9 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
+#include <string>
+#include <tuple>
 
 namespace carom::validation {
 
@@ -194,6 +197,66 @@ TrialResult mixture(const std::string& trial, const Effort& effort) {
   return result;
 }
 
+/// Checks the contact values of two species of two sizes.
+TrialResult contact_values(const std::string& trial, const Effort& effort) {
+  TrialResult result{.trial = trial};
+  const auto kind = [](const char* name, std::int64_t count, double radius, double mass) {
+    return Species{.name = name, .count = count, .radius = radius, .mass = mass, .velocities = MaxwellVelocities{1.0}};
+  };
+  // Two runs of two sizes, so that what is compared is independent.
+  constexpr double side = 24.0, large = 0.5, small = 0.3;
+  constexpr std::int64_t count = 200;
+  constexpr double area = side * side, all = 2.0 * count;
+  const std::string what = "200 disks of radius 0.5 and 200 of 0.3";
+  const auto found = [&](std::uint64_t k) {
+    const Scene scene{.box = {.upper = {side, side}, .boundary = {Boundary::periodic, Boundary::periodic}},
+                      .species = {kind("large", count, large, 1.0), kind("small", count, small, 0.2)},
+                      .run = run_of(effort.collisions(1e6), 100.0, effort.seed_of(k)),
+                      .observe = {{.name = "contact_values"}, {.name = "pressure"}}};
+    return run(scene, effort, result);
+  };
+  const Found one = found(1), other = found(2);
+  const std::array<theory::Component, 2> components = {{{count / area, large, 1.0}, {count / area, small, 0.2}}};
+  double from_contacts = 1.0, error = 0.0;
+  for (const auto& [pair, radius_i, radius_j, number] : {std::tuple("_large_large", large, large, 0.5 * count * (count - 1)),
+                                                         std::tuple("_large_small", large, small, 1.0 * count * count),
+                                                         std::tuple("_small_small", small, small, 0.5 * count * (count - 1))}) {
+    const Measured g = one.measured("contact_values", std::string("g") + pair),
+                   by_rate = other.measured("contact_values", std::string("g_rate") + pair);
+    result.checks.push_back({.name = fmt::format("g{0} from the collision rate less that from momentum, {1}", pair, what),
+                             .theory = "0",
+                             .source = "exact: velocities at collisions are those of equilibrium; two runs",
+                             .expected = 0.0,
+                             .measured = {by_rate.value - g.value, std::hypot(by_rate.error, g.error)}});
+    result.checks.push_back({.name = fmt::format("g{}, {}", pair, what),
+                             .theory = "contact values of the form of scaled particle theory, an approximation",
+                             .source = "Lebowitz, Helfand & Praestgaard, J. Chem. Phys. 43, 774 (1965)",
+                             .expected = theory::contact_value(components, radius_i, radius_j),
+                             .measured = g,
+                             .judged = Judged::shown});
+    const double share = std::numbers::pi * number * (radius_i + radius_j) * (radius_i + radius_j) / (area * all);
+    from_contacts += share * g.value;
+    error += share * g.error;  // the three come from one run
+  }
+  const Measured Z = other.measured("pressure", "Z");
+  result.checks.push_back({.name = "Z from contact values, " + what,
+                           .theory = "Z of another run; Z - 1 = (pi / A N) sum over pairs of sigma_ij^2 g_ij",
+                           .source = "Lebowitz, Phys. Rev. 133, A895 (1964)",
+                           .expected = Z.value,
+                           .measured = {from_contacts, std::hypot(error, Z.error)},
+                           .error_is_bound = true});
+  const Measured widest = one.measured("contact_values", "g_large_large"),
+                 narrowest = other.measured("contact_values", "g_small_small");
+  result.checks.push_back({.name = "g_large_large, " + what,
+                           .theory = "g_small_small, as if one number told how often all disks meet",
+                           .source = "the simplest guess",
+                           .expected = narrowest.value,
+                           .measured = widest,
+                           .reference_error = narrowest.error,
+                           .judged = Judged::disagrees});
+  return result;
+}
+
 }  // namespace
 
 void add_collisions(std::vector<Trial>& trials) {
@@ -205,6 +268,8 @@ void add_collisions(std::vector<Trial>& trials) {
   trials.push_back({"free-times", group, false, [](const Effort& effort) { return free_times("free-times", effort); }});
   trials.push_back(
       {"collisions-mixture", group, false, [](const Effort& effort) { return mixture("collisions-mixture", effort); }});
+  trials.push_back(
+      {"contact-values", group, false, [](const Effort& effort) { return contact_values("contact-values", effort); }});
 }
 
 }  // namespace carom::validation
