@@ -12,8 +12,13 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <exception>
+#include <memory>
 #include <numbers>
+#include <thread>
+#include <vector>
 
 namespace carom::validation {
 
@@ -136,6 +141,96 @@ TrialResult small(const std::string& trial, const theory::ReferencePressure& kno
   return result;
 }
 
+/// The reduced pressure P sigma^2 / kT of a gas of kT = 1 from momentum, one sample for many collisions of each disk: a sample
+/// for each mean free time, as the observable `pressure` takes them, costs a small system as much as its collisions.
+class RareMomentum final : public Observable {
+ public:
+  RareMomentum(double step, double area, std::int64_t disks, Blocking& pressure)
+      : step_(step), area_(area), disks_(static_cast<double>(disks)), pressure_(pressure) {}
+  [[nodiscard]] std::string name() const override { return "rare_momentum"; }
+  [[nodiscard]] double step() const override { return step_; }
+  [[nodiscard]] bool needs_positions() const override { return false; }
+  void sample(const State& state, const Totals& totals) override {
+    if (state.time > 0.0) pressure_.add((disks_ + 0.5 * (totals.virial - before_) / step_) / area_);
+    before_ = totals.virial;
+  }
+  [[nodiscard]] Measurement finish(double, const Totals&) override { return {.name = name()}; }
+
+ private:
+  double step_, area_, disks_, before_ = 0.0;
+  Blocking& pressure_;
+};
+
+/// Checks the pressure of a small system to five digits, by independent runs that all processors share.
+TrialResult five_digits(const std::string& trial, const theory::ReferencePressure& known, const Effort& effort) {
+  constexpr std::size_t runs = 16;
+  constexpr double collisions = 1.05e9, digits = 1e-5;
+  std::array<Measured, runs> found{};
+  std::array<TrialResult, runs> done;
+  std::atomic<std::size_t> next = 0;
+  std::atomic<bool> stopped = false;
+  std::exception_ptr error;  // that of the run that stopped the others
+  const auto take_runs = [&](const Effort& mine) {
+    for (std::size_t k = next++; k < runs && !stopped; k = next++) {
+      try {
+        const Gas gas{
+            .disks = known.disks, .packing_fraction = known.packing_fraction, .collisions = collisions, .equilibrate = 2000.0};
+        const double rate = theory::disk_collision_rate(theory::kolafa_rottner(known.packing_fraction));
+        Blocking pressure;
+        std::vector<std::unique_ptr<Observable>> own;
+        own.push_back(std::make_unique<RareMomentum>(128.0 / rate, square_box(known.disks, known.packing_fraction).area(),
+                                                     known.disks, pressure));
+        (void)run(scene_of(gas, mine.seed_of(k)), mine, done[k], std::move(own));
+        const auto estimate = pressure.estimate();
+        found[k] = {estimate->mean, estimate->error.value_or(NAN)};
+      } catch (...) {
+        if (!stopped.exchange(true)) error = std::current_exception();
+      }
+    }
+  };
+  {
+    // This thread alone asks whether to go on.
+    const Effort beside{.full = effort.full, .seed = effort.seed, .proceed = [&] { return !stopped.load(); }};
+    const Effort here{
+        .full = effort.full, .seed = effort.seed, .proceed = [&] { return !stopped && (!effort.proceed || effort.proceed()); }};
+    std::vector<std::jthread> others;
+    for (unsigned other = 1; other < std::clamp(std::thread::hardware_concurrency(), 1U, static_cast<unsigned>(runs)); ++other)
+      others.emplace_back([&] { take_runs(beside); });
+    take_runs(here);
+  }
+  if (error) std::rethrow_exception(error);
+  TrialResult result{.trial = trial};
+  Measured mean{0.0, 0.0};
+  double squares = 0.0;
+  for (std::size_t k = 0; k < runs; ++k) {
+    result.scenes.push_back(done[k].scenes.front());
+    mean.value += found[k].value / static_cast<double>(runs);
+    squares += found[k].error * found[k].error;
+  }
+  mean.error = std::sqrt(squares) / static_cast<double>(runs);
+  result.checks.push_back({.name = fmt::format("P sigma^2 / kT of {} disks at packing fraction {:.2f}, to five digits",
+                                               known.disks, known.packing_fraction),
+                           .theory = "for this number of disks in a square box",
+                           .source = "Li et al., J. Chem. Phys. 157, 234111 (2022)",
+                           .expected = known.pressure,
+                           .measured = mean,
+                           .reference_error = known.error,
+                           .largest_error = std::hypot(digits * known.pressure, known.error)});
+  // Errors from blocks within the runs are those with which the runs scatter: chi squared, which is nearly normal as its cube
+  // root (Wilson & Hilferty 1931).
+  double chi_squared = 0.0;
+  for (const Measured& one : found) chi_squared += std::pow((one.value - mean.value) / one.error, 2);
+  constexpr double freedom = static_cast<double>(runs - 1), third = 2.0 / (9.0 * freedom);
+  result.checks.push_back(
+      {.name = fmt::format("scatter of the {} runs of {} disks, chi squared over {}", runs, known.disks, runs - 1),
+       .theory = "1, if the errors of the runs are right",
+       .source = "chi squared",
+       .expected = 1.0,
+       .measured = {chi_squared / freedom, std::sqrt(2.0 / freedom)},
+       .equivalent = (std::cbrt(chi_squared / freedom) - (1.0 - third)) / std::sqrt(third)});
+  return result;
+}
+
 /// Returns a crystal of 16 x 18 disks in a box that fits it.
 TrialResult solid(const std::string& trial, double alpha, const Effort& effort) {
   TrialResult result{.trial = trial};
@@ -208,6 +303,11 @@ void add_equation_of_state(std::vector<Trial>& trials) {
   for (const theory::ReferencePressure& known : theory::li_2022) {
     const std::string name = fmt::format("pressure-{}-disks-{:.2f}", known.disks, known.packing_fraction);
     trials.push_back({name, group, false, [=](const Effort& effort) { return small(name, known, effort); }});
+  }
+  {
+    const theory::ReferencePressure& known = theory::li_2022.front();
+    const std::string name = fmt::format("pressure-{}-disks-{:.2f}-five-digits", known.disks, known.packing_fraction);
+    trials.push_back({name, group, true, [=](const Effort& effort) { return five_digits(name, known, effort); }});
   }
   for (const double alpha : {1e-2, 1e-3}) {
     const std::string name = fmt::format("crystal-{:g}", alpha);
