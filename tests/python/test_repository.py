@@ -1,7 +1,9 @@
 """What a host of repositories reads: the citation file, the forms for issues, the workflows; and the numbers of things that pages state."""
 
+import os
 import pathlib
 import re
+import subprocess
 
 import pytest
 
@@ -68,6 +70,16 @@ def test_pages_state_the_number_of_scenes_of_the_playground():
     found = [*stated(r"scenes\s+run\s+live"), *stated(r"scenes: gases")]
     assert len(found) >= 2
     assert {number for _, number in found} == {len(scenes)}, found
+
+
+def test_the_page_of_validation_lists_every_check_of_every_trial():
+    listed = subprocess.run([os.environ["CAROM_PROGRAM"], "validate", "--list"], capture_output=True, text=True, check=True).stdout
+    trials = [line for line in listed.splitlines() if line.startswith("  ") and "(--full)" not in line]
+    page = (ROOT / "docs/validation.md").read_text()
+    table = page.partition("## Every check of a quick validation")[2]
+    judged = [line for line in table.splitlines() if line.startswith("| ") and not line.startswith("| what |") and "(not judged)" not in line]
+    stated = re.findall(r"(\d+) trials, (\d+) checks", page) + [(m, n) for n, m in re.findall(r"(\d+) checks in (\d+) trials", table)]
+    assert len(stated) == 2 and {(int(m), int(n)) for m, n in stated} == {(len(trials), len(judged))}
 
 
 def test_no_page_counts_the_gallery():
