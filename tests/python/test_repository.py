@@ -19,6 +19,12 @@ def test_the_citation_names_the_version_of_the_build():
     assert f"## [{version[1]}] - {citation['date-released']}\n" in (ROOT / "CHANGELOG.md").read_text()
 
 
+def test_the_log_of_changes_names_the_format_of_checkpoints():
+    format_now = re.search(r"checkpoint_format = (\d+);", (ROOT / "src/io/checkpoint.cpp").read_text())
+    stated = re.search(r"Checkpoints of earlier builds are refused: their\s+format is (\d+)", (ROOT / "CHANGELOG.md").read_text())
+    assert format_now and stated and stated[1] == format_now[1]
+
+
 def test_the_log_of_changes_is_short_enough_to_be_read():
     lines = (ROOT / "CHANGELOG.md").read_text().splitlines()
     assert max(map(len, lines)) <= 120
