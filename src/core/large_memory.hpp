@@ -1,7 +1,9 @@
 #pragma once
-// Memory for arrays with an entry per disk: aligned to cache lines and, from 2 MiB on, in pages of 2 MiB where the system
-// has them, so that reading all over a large array does not miss the address cache each time.
+// Memory for arrays with an entry per disk: aligned to cache lines and, from 1 MiB on, in pages of 2 MiB where the system
+// has them, so that reading all over a large array does not miss the address cache each time. What is left over at the end has a
+// page of 2 MiB as well where it fills half of one, and small pages otherwise.
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -35,7 +37,7 @@ struct LargeAllocator {
     if (n > static_cast<std::size_t>(-1) / 2 / sizeof(T)) throw std::bad_array_new_length();
     const std::size_t bytes = bytes_of(n);
 #if CAROM_MAPS_MEMORY
-    if (bytes >= huge_page) return static_cast<T*>(map_memory(bytes));
+    if (is_large(bytes)) return static_cast<T*>(map_memory(bytes));
 #endif
     void* memory = std::aligned_alloc(line, bytes);
     if (memory == nullptr) throw std::bad_alloc();
@@ -43,7 +45,7 @@ struct LargeAllocator {
   }
   void deallocate(T* memory, [[maybe_unused]] std::size_t n) {
 #if CAROM_MAPS_MEMORY
-    if (const std::size_t bytes = bytes_of(n); bytes >= huge_page) return give_back(memory, bytes);
+    if (const std::size_t bytes = bytes_of(n); is_large(bytes)) return give_back(memory, bytes);
 #endif
     std::free(memory);
   }
@@ -56,11 +58,15 @@ struct LargeAllocator {
  private:
   static constexpr std::size_t line = 64, huge_page = std::size_t{1} << 21;
 
+  static bool is_large(std::size_t bytes) { return in_huge_pages(bytes) > 0; }
+  /// The bytes of the large pages that are at least half full, from the start on.
+  static std::size_t in_huge_pages(std::size_t bytes) { return (bytes + huge_page / 2) / huge_page * huge_page; }
+  static std::size_t held(std::size_t bytes) { return std::max(bytes, in_huge_pages(bytes)); }
   static std::size_t whole_pages(std::size_t bytes) { return (bytes + huge_page - 1) / huge_page * huge_page; }
   static std::size_t bytes_of(std::size_t n) { return (n * sizeof(T) + line - 1) / line * line; }
 
 #if CAROM_MAPS_MEMORY
-  /// Memory that was in use before would stay in small pages. What does not fill a large page at the end does so too.
+  /// Memory that was in use before would stay in small pages.
   static void* map_memory(std::size_t bytes) {
     const std::size_t mapped = whole_pages(bytes);
     void* memory = mmap(nullptr, mapped + huge_page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -69,13 +75,13 @@ struct LargeAllocator {
     char* const start = static_cast<char*>(memory) + before;
     if (before > 0) munmap(memory, before);
     munmap(start + mapped, huge_page - before);
-    madvise(start, bytes / huge_page * huge_page, MADV_HUGEPAGE);  // a wish: nothing depends on it
-    large_memory_held += bytes;
+    madvise(start, in_huge_pages(bytes), MADV_HUGEPAGE);  // a wish: nothing depends on it
+    large_memory_held += held(bytes);
     return start;
   }
   static void give_back(void* memory, std::size_t bytes) {
     munmap(memory, whole_pages(bytes));
-    large_memory_held -= bytes;
+    large_memory_held -= held(bytes);
   }
 #endif
 };
