@@ -3,9 +3,9 @@
 
     docs/images/calibration.py PROGRAM [DIRECTORY [SEEDS]]
 
-Runs `PROGRAM validate --seed K --out DIRECTORY/K` for K = 1 to SEEDS (20; or a list, 1,2,5), but for those that calibration.csv
-beside this file or DIRECTORY (calibration) holds already, and goes on with one that was interrupted. Adds what it finds to
-calibration.csv: remove that file where the checks themselves have changed. Takes the checks that calibrate (see docs/output.md): z
+Runs `PROGRAM validate --seed K --out DIRECTORY/K` for K = 1 to SEEDS (20; or a list, 1,2,5), without the trials that calibration.csv
+beside this file or DIRECTORY (calibration) holds already of that seed, and goes on with one that was interrupted. Adds what it finds to
+calibration.csv: remove a trial from that file where its checks have changed. Takes the checks that calibrate (see docs/output.md): z
 of these must be normal with variance 1. Prints how well they are, by group and by state of the equation of state too, and writes
 calibration.svg beside this file. Needs python3-matplotlib.
 """
@@ -36,21 +36,30 @@ if kept_file.exists():
         for row in csv.DictReader(file):
             kept.setdefault(int(row["seed"]), []).append(row)
 
+# Trials of a quick validation, one a line under the name of their group. Those without a verdict have no rows.
+listed = subprocess.run([program, "validate", "--list"], capture_output=True, check=True, text=True).stdout.splitlines()
+trials = [line.strip() for line in listed if line.startswith("  ") and not line.endswith("(--full)")]
+trials = [trial for trial in trials if not trial.startswith(("transport-", "naive-", "grid-"))]
+
 directory.mkdir(exist_ok=True)
 for seed in wanted:
-    if seed in kept:
+    found = {row["trial"] for row in kept.get(seed, [])}
+    missing = [trial for trial in trials if trial not in found]
+    if not missing:
         continue
     out = directory / str(seed)
     if not (out / "validation.json").exists():
         resume = ["--resume"] if (out / "trials.jsonl").exists() else []
+        only = [word for trial in missing for word in ("--only", trial)]
         # Exit code 4 says that a check failed, which is for the reader of the histogram to judge.
-        code = subprocess.run([program, "validate", "--seed", str(seed), "--out", str(out), "-q", *resume]).returncode
+        code = subprocess.run([program, "validate", "--seed", str(seed), "--out", str(out), "-q", *only, *resume]).returncode
         if code not in (0, 4):
             sys.exit(f"carom validate --seed {seed} ended with code {code}")
-    kept[seed] = [
+    kept[seed] = kept.get(seed, []) + [
         {"seed": seed, "trial": trial["trial"], "check": str(number), "calibrates": int(check["calibrates"]), "holds": int(check["holds"]),
          "z": "" if check["z"] is None else repr(check["z"])}
         for trial in json.loads((out / "validation.json").read_text())["trials"]
+        if trial["trial"] in missing
         for number, check in enumerate(trial["checks"])
         if check["judged"] != "shown"
     ]

@@ -331,7 +331,7 @@ def draw_effects(r, scene, walled, gas):
     if "shear" in drawn:
         tables["shear"] = {"rate": rate(r.choice([0.0, 0.01, 0.1, -0.1, 1.0, -3.0]))}
     if "drag" in drawn:
-        moving = any({"temperature", "velocity", "mass"} & set(wall) for wall in tables.get("walls", {}).values())
+        moving = any({"temperature", "velocity", "mass", "vibration"} & set(wall) for wall in tables.get("walls", {}).values())
         neutral = not scene.bold and (moving or {"roughness", "elastic_below"} & set(tables["collision"]))
         tables["drag"] = {"rate": rate(0.0 if neutral else r.choice([0.0, 0.1, 1.0, 3.0]) / gas.time)}
     widest = gas.radius  # of half the contact distances
@@ -371,13 +371,20 @@ def draw_contacts(r, gas, kinds):
 
 
 def draw_wall(r, gas, side, grows):
-    kinds = ["restitution", "temperature", "hot and inelastic?", "moving", "moving inelastic", "moving warm", "piston", "inelastic piston"]
+    kinds = ["restitution", "temperature", "hot and inelastic?", "moving", "moving inelastic", "moving warm", "piston", "inelastic piston",
+             "hitting", "vibrating", "vibrating inelastic"]
     kind = r.choice(kinds[:2] if grows else kinds)
     inelastic = {"restitution": r.choice([0.0, 0.5, 0.9, 1.0, r.random()])}
     warm = {"temperature": energy(r.choice([1.0, r.uniform(0.1, 4.0)]))}
     moving = {"velocity": speed(r.choice([0.0, r.uniform(-0.1, 0.1) * side / gas.time, r.uniform(-0.1, 0.1)]))}
     piston = {"mass": mass(r.choice([0.1, 1.0, 10.0, 100.0, 1e4])), "load": load(r.choice([0.0, 0.1, 1.0, 1.0]) * (gas.count + 0.1) / gas.area)}
+    hitting = {"vibration": speed(r.choice([0.0, 1.0, r.uniform(0.0, 2.0)]))}
+    # Most amplitudes leave room for a disk between two walls that vibrate; 0.5 seldom does.
+    amplitude = length(r.choice([0.0, 1e-6, 0.1, r.uniform(0.0, 0.2), 0.5]) * (side - 2.0 * gas.radius))
+    vibrating = {"vibration": {"form": r.choice(["sine", "sawtooth"]), "amplitude": amplitude,
+                               "frequency": rate(r.choice([0.0, 1.0, r.uniform(0.01, 3.0), 30.0 / gas.time])), "phase": r.choice([0.0, 0.25, 0.5, r.random()])}}
     return {
+        "hitting": hitting, "vibrating": vibrating, "vibrating inelastic": {**vibrating, **inelastic},
         "restitution": inelastic, "temperature": warm, "hot and inelastic?": inelastic, "moving": moving, "moving inelastic": {**moving, **inelastic},
         "moving warm": {**moving, **warm}, "piston": piston, "inelastic piston": {**piston, **inelastic},
     }[kind]

@@ -56,6 +56,19 @@ WallProperties moving(double velocity) {
   return wall;
 }
 
+/// A wall that vibrates without amplitude.
+WallProperties hitting(double velocity) {
+  WallProperties wall;
+  wall.vibration = velocity;
+  return wall;
+}
+
+WallProperties vibrating(WaveForm form, double amplitude) {
+  WallProperties wall;
+  wall.oscillation = Oscillation{form, amplitude, 1.0};
+  return wall;
+}
+
 Effects with_gravity(double downwards) {
   Effects effects;
   effects.gravity = Gravity{{0.0, -downwards}};
@@ -128,6 +141,12 @@ std::vector<PricedEffect> priced_effects(const Scene& gas) {
     all.push_back({"inelastic wall", "e = 0.9, one of four", with_wall(0, neutral), with_wall(0, inelastic)});
     all.push_back({"thermal wall", "kT = 1, one of four", {}, with_wall(0, thermal)});
     all.push_back({"moving wall", "0.001 v_T, one of four", with_wall(3, moving(0.0)), with_wall(3, moving(-0.001))});
+    all.push_back(
+        {"vibrating wall", "0.01 v_T without amplitude, one of four", with_wall(2, hitting(0.0)), with_wall(2, hitting(0.01))});
+    all.push_back({"vibrating wall, sine", "0.01 sigma, 1 v_T/sigma, one of four", with_wall(2, vibrating(WaveForm::sine, 0.0)),
+                   with_wall(2, vibrating(WaveForm::sine, 0.01))});
+    all.push_back({"vibrating wall, sawtooth", "0.01 sigma, 1 v_T/sigma, one of four",
+                   with_wall(2, vibrating(WaveForm::sawtooth, 0.0)), with_wall(2, vibrating(WaveForm::sawtooth, 0.01))});
     all.push_back({"all neutral together", "", all_neutral(true), {}});
     return all;
   }
