@@ -33,3 +33,5 @@ endforeach()
 set(configuration ${PROJECT_SOURCE_DIR}/pyproject.toml)
 carom_add_python_test(types -m mypy --strict --config-file ${configuration} --cache-dir ${PROJECT_BINARY_DIR}/mypy -p carom)
 set_tests_properties(python.types PROPERTIES ENVIRONMENT "PYTHONPATH=${laid_out};MYPYPATH=${laid_out}" WORKING_DIRECTORY ${laid_out})
+# More than a hundred programs, one after another: 21 s of processor time, and minutes where much else runs.
+set_tests_properties(python.commands PROPERTIES TIMEOUT 900)
