@@ -46,14 +46,15 @@ double normal_deviation(const Measured& mean, std::size_t values) {
 constexpr std::int64_t flow_disks = 200, flow_layers = 10;
 constexpr double flow_width = 20.0;
 
-/// The mean of P_yy / (its mean over the height) - 1 in each layer that no wall touches, over stretches of the run.
-std::vector<std::vector<double>> deviations_of_pressure(const Found& found) {
+/// A component of the stress over its mean over the height, less 1, in each layer that no wall touches, for each stretch of the
+/// run.
+std::vector<std::vector<double>> deviations_of_stress(const Found& found, const std::string& component) {
   std::vector<std::vector<double>> deviations(static_cast<std::size_t>(flow_layers - 2));
   for (const Measurement& one : found.measurements)
     for (const Table& table : one.tables) {
       if (table.name != "fields_in_time") continue;
       for (const Column& column : table.columns) {
-        if (column.name != "stress_yy") continue;
+        if (column.name != component) continue;
         for (std::size_t first = 0; first < column.values.size(); first += flow_layers) {
           double mean = 0.0;
           for (std::size_t k = 1; k + 1 < flow_layers; ++k) mean += column.values[first + k] / (flow_layers - 2.0);
@@ -89,21 +90,25 @@ TrialResult flow(const std::string& trial, const std::string& what, double wall_
   const Totals totals = found.simulation.totals();
   const double time = *scene.run.time, weight = static_cast<double>(flow_disks) * acceleration;
 
-  Curve measured{.plot = "flow-pressure", .name = what};
-  const auto layers = deviations_of_pressure(found);
-  for (std::size_t k = 0; k < layers.size(); ++k) {
-    const Measured mean = mean_of(layers[k]);
-    const double height = (static_cast<double>(k) + 1.5) * flow_width / flow_layers;
-    measured.x.push_back(height), measured.y.push_back(mean.value), measured.error.push_back(mean.error);
-    result.checks.push_back({.name = fmt::format("P_yy at height {:g} over its mean, {}", height, what),
-                             .theory = "1, the same at every height of a steady flow",
-                             .source = "balance of momentum",
-                             .expected = 1.0,
-                             .measured = {1.0 + mean.value, mean.error},
-                             .equivalent = normal_deviation(mean, layers[k].size()),
-                             .largest_error = effort.full ? 1e-3 : 0.0});
-  }
-  result.curves.push_back(std::move(measured));
+  const auto put_layers = [&](const char* symbol, const char* component, double largest_error) {
+    Curve measured{.plot = "flow-pressure", .name = what};
+    const auto layers = deviations_of_stress(found, component);
+    for (std::size_t k = 0; k < layers.size(); ++k) {
+      const Measured mean = mean_of(layers[k]);
+      const double height = (static_cast<double>(k) + 1.5) * flow_width / flow_layers;
+      measured.x.push_back(height), measured.y.push_back(mean.value), measured.error.push_back(mean.error);
+      result.checks.push_back({.name = fmt::format("{} at height {:g} over its mean, {}", symbol, height, what),
+                               .theory = "1, the same at every height of a steady flow",
+                               .source = "balance of momentum",
+                               .expected = 1.0,
+                               .measured = {1.0 + mean.value, mean.error},
+                               .equivalent = normal_deviation(mean, layers[k].size()),
+                               .largest_error = effort.full ? largest_error : 0.0});
+    }
+    return measured;
+  };
+  result.curves.push_back(put_layers("P_yy", "stress_yy", 1e-3));
+  if (acceleration == 0.0) (void)put_layers("P_xy", "stress_xy", 3e-3);  // a weight along x makes it rise with y
   result.curves.push_back({.plot = "flow-pressure", .name = "constant", .theory = true, .x = {0.0, flow_width}, .y = {0.0, 0.0}});
 
   // The work is that of walls that slide and of the weight, by their way alone; heat is what the observable has.
