@@ -13,6 +13,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace carom::validation {
@@ -129,13 +130,17 @@ TrialResult channel(const std::string& trial, double width, double length_per_di
   return result;
 }
 
-/// Disks with a stepped potential, in a bath of kT = 1.
-TrialResult stepped_channel(const std::string& trial, double width, double length_per_disk,
-                            const std::vector<PotentialStep>& steps, const Effort& effort) {
+/// Disks with a pair potential of steps or with a square well, in a bath of kT = 1.
+TrialResult channel_with_potential(const std::string& trial, double width, double length_per_disk,
+                                   const std::variant<SteppedPotential, SquareWell>& effect, const Effort& effort) {
   TrialResult result{.trial = trial};
   constexpr std::int64_t disks = 200;
   Scene scene = channel_scene(disks, width, length_per_disk, run_of(effort.collisions(2e6), 200.0, effort.seed_of(0)));
-  scene.effects.stepped_potential = SteppedPotential{steps};
+  if (const auto* well = std::get_if<SquareWell>(&effect))
+    scene.effects.square_well = *well;
+  else
+    scene.effects.stepped_potential = std::get<SteppedPotential>(effect);
+  const std::vector<PotentialStep> steps = scene.effects.potential_steps();
   scene.effects.thermostat = Thermostat{1.0, 0.5};
   ForcesAndEnergy::Means means;
   std::vector<std::unique_ptr<Observable>> own;
@@ -171,15 +176,19 @@ void add_single_file(std::vector<Trial>& trials) {
     trials.push_back(
         {name, "single file", false, [=](const Effort& effort) { return channel(name, at.width, at.length, effort); }});
   }
-  struct Stepped {
+  struct WithPotential {
+    const char* what;
     double width, length;
-    std::vector<PotentialStep> steps;
+    std::variant<SteppedPotential, SquareWell> effect;
   };
-  for (const Stepped& at :
-       {Stepped{1.5, 1.2, {{1.2, 1.0}, {1.6, -1.0}}}, Stepped{1.8, 1.1, {{1.05, -1.0}, {1.1, 0.0}, {1.19, 0.5}}}}) {
-    const std::string name = fmt::format("single-file-steps-{:g}-{:g}", at.width, at.length);
-    trials.push_back({name, "single file", false,
-                      [=](const Effort& effort) { return stepped_channel(name, at.width, at.length, at.steps, effort); }});
+  for (const WithPotential& at :
+       {WithPotential{"steps", 1.5, 1.2, SteppedPotential{{{1.2, 1.0}, {1.6, -1.0}}}},
+        WithPotential{"steps", 1.8, 1.1, SteppedPotential{{{1.05, -1.0}, {1.1, 0.0}, {1.19, 0.5}}}},
+        WithPotential{"well", 1.5, 1.3, SquareWell{1.5, 1.0}}, WithPotential{"shoulder", 1.3, 1.2, SquareWell{1.4, -1.0}}}) {
+    const std::string name = fmt::format("single-file-{}-{:g}-{:g}", at.what, at.width, at.length);
+    trials.push_back({name, "single file", false, [=](const Effort& effort) {
+                        return channel_with_potential(name, at.width, at.length, at.effect, effort);
+                      }});
   }
 }
 
