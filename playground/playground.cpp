@@ -444,9 +444,13 @@ Session& here() {
 }
 
 std::string wall_json(const WallProperties& wall) {
-  return fmt::format("{{\"restitution\":{},\"temperature\":{},\"velocity\":{},\"mass\":{},\"load\":{}}}",
-                     json_number(wall.restitution), json_number(wall.temperature), json_number(wall.velocity),
-                     json_number(wall.mass), json_number(wall.load));
+  return fmt::format(
+      "{{\"restitution\":{},\"temperature\":{},\"velocity\":{},\"slides\":{},\"mass\":{},\"load\":{},\"amplitude\":{},"
+      "\"frequency\":{}}}",
+      json_number(wall.restitution), json_number(wall.temperature), json_number(wall.velocity),
+      json_number(wall.tangential_velocity), json_number(wall.mass), json_number(wall.load),
+      wall.oscillation ? json_number(wall.oscillation->amplitude) : "null",
+      wall.oscillation ? json_number(wall.oscillation->frequency) : "null");
 }
 
 std::string obstacles_json(const Effects& effects) {
@@ -498,11 +502,12 @@ std::string description(Session& session) {
       scene.box.periodic(1), species, walls, obstacles_json(effects));
   json += fmt::format(
       "\"gravity\":{},\"rule\":\"{}\",\"restitution\":{},\"roughness\":{},\"thermostat\":{},\"thermostatRate\":{},\"shear\":{},"
-      "\"drag\":{},\"growth\":{},",
+      "\"drag\":{},\"tumbling\":{},\"growth\":{},",
       json_pair(effects.acceleration()), reversal ? "reversal" : "specular", json_number(effects.collision.restitution),
       json_number(effects.collision.roughness), effects.thermostat ? json_number(effects.thermostat->temperature) : "null",
       effects.thermostat ? json_number(effects.thermostat->rate) : "null",
       effects.shear ? json_number(effects.shear->rate) : "null", effects.drag ? json_number(effects.drag->rate) : "null",
+      effects.tumbling ? json_number(effects.tumbling->rate) : "null",
       effects.growth ? json_number(effects.growth->rate) : "null");
   json += fmt::format(
       "\"wellDepth\":{},\"wellWidth\":{},\"engine\":{},\"whyNoZ\":{},\"theoryZ\":{},\"packing\":{},"

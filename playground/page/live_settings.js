@@ -9,6 +9,8 @@ const wallSetting = (side) => ({
   change: (v) => setKeys(`walls.${["left", "right", "bottom", "top"][side]}=${v > 0 ? `{ temperature = ${v} }` : "{ restitution = 1 }"}`),
 });
 
+const vibratingFloor = (amplitude, frequency) => `walls.bottom={ vibration = { form = "sine", amplitude = ${amplitude}, frequency = ${frequency} } }`;
+
 const liveSettings = {
   gravity: { least: 0, most: 2, step: 0.01, unit: "length / time²", value: (d) => -d.gravity[1], change: (v) => setKeys(`gravity.acceleration=[0, ${-v || 0}]`) },
   gravity0: { least: 0, most: 1, step: 0.01, unit: "length / time²", value: (d) => -d.gravity[1], change: (v) => setKeys(`gravity.acceleration=[0, ${-v || 0}]`) },
@@ -45,6 +47,13 @@ const liveSettings = {
   wellDepth: { least: 0, most: 3, step: 0.05, unit: "energy", value: (d) => d.wellDepth ?? 0, change: (v, d) => setKeys(`square_well={ width = ${d.wellWidth ?? 1.5}, depth = ${v} }`) },
   shear: { least: 0, most: 1, step: 0.01, unit: "1 / time", value: (d) => d.shear ?? 0, change: (v) => setKeys(`shear.rate=${v}`) },
   drag: { least: 0, most: 1, step: 0.01, unit: "1 / time", value: (d) => d.drag ?? 0, change: (v) => setKeys(`drag.rate=${v}`) },
+  tumbling: { least: 0, most: 5, step: 0.05, unit: "1 / time", value: (d) => d.tumbling ?? 0, change: (v) => setKeys(`tumbling.rate=${v}`) },
+  slide: {
+    least: -3, most: 3, step: 0.1, unit: "length / time", value: (d) => d.walls[3].slides ?? 0,
+    change: (v) => setKeys(`walls.top={ temperature = 1, tangential_velocity = ${v} }`, `walls.bottom={ temperature = 1, tangential_velocity = ${-v} }`),
+  },
+  amplitude: { least: 0, most: 1.5, step: 0.05, unit: "length", value: (d) => d.walls[2].amplitude ?? 0, change: (v, d) => setKeys(vibratingFloor(v, d.walls[2].frequency ?? 1)) },
+  frequency: { least: 0.1, most: 5, step: 0.1, unit: "1 / time", value: (d) => d.walls[2].frequency ?? 1, change: (v, d) => setKeys(vibratingFloor(d.walls[2].amplitude ?? 0, v)) },
   growth: { least: 0, most: 0.1, step: 0.001, unit: "1 / time", value: (d) => d.growth ?? 0, change: (v) => setKeys(`growth={ rate = ${v}, until = { packing_fraction = 0.85 } }`) },
 };
 
@@ -57,7 +66,7 @@ function settingsOf(description) {
   if (description.species.length > 0 && description.species[0].uniform) found.push("radius", "mass0");
   if (description.species.length > 1 && description.species[1].uniform) found.push("mass1");
   if (!acrossX && !acrossY && !description.isCircle && description.walls.every((wall) => wall.mass === null && !wall.velocity)) found.push("wallsT");
-  for (const [name, isThere] of [["thermostat", true], ["shear", description.shear !== null], ["drag", true], ["growth", description.growth !== null], ["wellDepth", description.wellDepth !== null],
+  for (const [name, isThere] of [["thermostat", true], ["shear", description.shear !== null], ["drag", true], ["tumbling", description.tumbling !== null], ["growth", description.growth !== null], ["wellDepth", description.wellDepth !== null],
     ["roughness", description.roughness !== null], ["load", description.walls[3].mass !== null], ["pistonMass", description.walls[3].mass !== null]])
     if (isThere) found.push(name);
   found.push("rule");

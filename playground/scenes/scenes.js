@@ -29,6 +29,7 @@ const disksOf = ({ name, count, radius = 0.5, mass = 1, positions = '"random"', 
   `[[disks]]\nname = "${name}"\n${count === undefined ? "" : `count = ${count}\n`}radius = ${round(radius)}\nmass = ${round(mass)}\n${more}` +
   `positions = ${positions}\nvelocities = ${velocities}\n\n`;
 const segment = (from, to) => `[[obstacles]]\nsegment = { from = [${from.map(round).join(", ")}], to = [${to.map(round).join(", ")}] }\n\n`;
+const arc = (centre, radius, from, to) => `[[obstacles]]\narc = { centre = [${centre.map(round).join(", ")}], radius = ${round(radius)}, from = ${from}, to = ${to} }\n\n`;
 const post = (centre, radius) => `[[obstacles]]\ndisk = { centre = [${centre.map(round).join(", ")}], radius = ${round(radius)} }\n\n`;
 const collision = (more = "") => `[collision]\nrule = "specular"\n${more}\n`;
 const runOf = (p, time = 1000, more = "") => `[run]\ntime = ${time}\nseed = ${p.seed ?? 1}\n${more}`;
@@ -131,6 +132,12 @@ const scenes = [
     },
   },
   {
+    id: "swimmers", group: "gases", start: [count(200, 3000), packing(0.15, 0.5)], follow: 0,
+    live: ["tumbling", "radius"],
+    make: (p) => titled("Run and tumble") + gasOf({ ...p, kT: 1 }, "swimmers", periodic).replace("{ temperature = 1 }", "{ speed = 1.0 }") +
+      collision() + "[tumbling]\nrate = 0.5\n\n" + runOf(p),
+  },
+  {
     id: "piston", group: "walls", start: [count(150, 1500), temperature()], shows: "walls", history: "piston",
     live: ["load", "pistonMass", "gravity0"],
     make: (p) => {
@@ -160,6 +167,16 @@ const scenes = [
     },
   },
   {
+    id: "couette", group: "walls", start: [count(250, 3000), packing(0.2, 0.5)], shows: "walls", history: "temperature",
+    live: ["slide", "restitution"],
+    make: (p) => {
+      const side = sideOf(p.n, p.eta);
+      return titled("Flow between sliding walls") + boxOf([0, side], [0, side], '{ x = "periodic", y = "walls" }') +
+        disksOf({ name: "gas", count: p.n, positions: p.eta > 0.45 ? '"hexagonal"' : '"random"' }) + collision() +
+        "[walls]\nbottom = { temperature = 1, tangential_velocity = -1 }\ntop = { temperature = 1, tangential_velocity = 1 }\n\n" + runOf(p);
+    },
+  },
+  {
     id: "sediment", group: "walls", start: [count(300, 3000), temperature()], shows: "walls", history: "height",
     live: ["gravity", "bottomT", "restitution"],
     make: (p) => {
@@ -183,6 +200,17 @@ const scenes = [
         disksOf({ name: "grains", positions: pairs(lattice(p.n, [0, width], [0.2, width], 0.5)), velocities: kT(1) }) +
         collision("restitution = 0.9\nelastic_below = { time = 1e-3 }\n") +
         "[gravity]\nacceleration = [0, -0.5]\n\n[walls]\nbottom = { temperature = 8 }\n\n" + runOf(p);
+    },
+  },
+  {
+    id: "vibrated", group: "grains", start: [count(288, 1500, 20)], shows: "walls", history: "height",
+    live: ["amplitude", "frequency", "restitution", "gravity"],
+    make: (p) => {
+      const width = Math.max(Math.sqrt(p.n) * 1.4, 6);
+      return titled("Grains on a vibrating floor") + boxOf([0, width], [0, 2.5 * width], '{ x = "periodic", y = "walls" }') +
+        disksOf({ name: "grains", positions: pairs(lattice(p.n, [0.05, width - 0.05], [0.2, width], 0.5)), velocities: kT(1) }) +
+        collision("restitution = 0.8\nelastic_below = { time = 1e-3 }\n") +
+        '[gravity]\nacceleration = [0, -1]\n\n[walls]\nbottom = { vibration = { form = "sine", amplitude = 0.5, frequency = 1 } }\n\n' + runOf(p);
     },
   },
   {
@@ -217,6 +245,13 @@ const scenes = [
     live: ["growth"],
     make: (p) => titled("Disks that grow") + gasOf({ n: p.n, eta: 0.3, kT: 1 }, "disks", periodic) + collision() +
       `[growth]\nrate = ${p.rate}\nuntil = { packing_fraction = 0.85 }\n\n` + runOf(p),
+  },
+  {
+    id: "sizes", group: "dense", start: [count(300, 3000), packing(0.72, 0.76), { key: "spread", least: 0.02, usual: 0.2, most: 0.4, step: 0.01 }],
+    live: ["restitution"],
+    make: (p) => titled("Disks of all sizes") + "[box]\naspect = 1\nboundary = \"periodic\"\n\n" +
+      `[[disks]]\nname = "disks"\ncount = ${p.n}\nradius = { lognormal = { mean = 0.5, deviation = ${round(0.5 * p.spread)} } }\npacking_fraction = ${p.eta}\n` +
+      `mass = { per_area = 1.0 }\npositions = { packing_fraction = ${p.eta} }\nvelocities = { temperature = 1.0 }\n\n` + collision() + runOf(p),
   },
   {
     id: "condensation", group: "dense", start: [count(500, 3000, 20), packing(0.2, 0.4), temperature(0.6, 2)], colour: "speed", history: "temperature",
@@ -266,6 +301,28 @@ const scenes = [
     make: (p) => titled("Sinai's billiard") + boxOf([-10, 10], [-10, 10], walls) +
       disksOf({ name: "balls", radius: 0.02, positions: pairs(Array.from({ length: p.n }, (_, k) => [-8 + 0.05 * (k % 8), -3 + 0.05 * Math.floor(k / 8)])),
         velocities: pairs(Array.from({ length: p.n }, (_, k) => [0.8 + 10 ** p.apart * k, 0.6])) }) + post([0, 0], 4) + collision() + runOf(p),
+  },
+  {
+    id: "stadium", group: "few", start: [{ key: "n", least: 1, usual: 8, most: 20, step: 1 }, { key: "straight", least: 0, usual: 8, most: 16, step: 1 }, { key: "apart", least: -8, usual: -3, most: -1, step: 1 }], colour: "id", trails: true,
+    live: [],
+    make: (p) => {
+      const [half, radius] = [p.straight / 2, 8];
+      const sides = half > 0 ? segment([-half, -radius], [half, -radius]) + segment([half, radius], [-half, radius]) : "";
+      return titled("Bunimovich's stadium") + boxOf([-half - radius - 0.5, half + radius + 0.5], [-radius - 0.5, radius + 0.5], walls) +
+        disksOf({ name: "balls", radius: 0.02, positions: pairs(Array.from({ length: p.n }, (_, k) => [-2 + 0.05 * (k % 5), 1 + 0.05 * Math.floor(k / 5)])),
+          velocities: pairs(Array.from({ length: p.n }, (_, k) => [0.8 + 10 ** p.apart * k, 0.6])) }) +
+        arc([-half, 0], radius, 90, 270) + arc([half, 0], radius, -90, 90) + sides + collision() + runOf(p);
+    },
+  },
+  {
+    id: "drum", group: "few", start: [count(60, 600, 1), temperature()], history: "energy",
+    live: ["gravity", "restitution"],
+    make: (p) => {
+      const radius = Math.max(Math.sqrt(p.n) * 0.5 / Math.sqrt(0.15), 3);
+      return titled("A round drum") + `[box]\ncircle = { centre = [0, 0], radius = ${round(radius)} }\n\n` +
+        disksOf({ name: "balls", count: p.n, positions: '"hexagonal"', velocities: kT(p.kT) }) + collision() +
+        "[gravity]\nacceleration = [0, -0.3]\n\n" + runOf(p);
+    },
   },
   {
     id: "lorentz", group: "few", start: [{ key: "n", least: 1, usual: 40, most: 400, step: 1, logarithmic: true }, { key: "post", least: 0.3, usual: 0.9, most: 1.05, step: 0.05 }], colour: "id", trails: true,
