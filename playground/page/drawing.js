@@ -9,13 +9,14 @@ const colourings = {
   id: { prepare: () => {}, value: (i) => i / Math.max(disks - 1, 1), ends: () => ["0", String(disks - 1)] },
   psi6: {
     prepare: () => {
-      if (psi.length !== disks) psi = new Float64Array(disks);
-      if (disks >= 7 && disks <= 5000) hexaticOrder({ x: run.x, y: run.y, walls: [run.numbers[at.left], run.numbers[at.right], run.numbers[at.bottom], run.numbers[at.top]] }, psi);
+      if (order.size.length !== disks) for (const name of Object.keys(order)) order[name] = new Float64Array(disks);
+      const walls = ["left", "right", "bottom", "top"].map((side) => run.numbers[at[side]]);
+      if (disks >= 3 && disks <= 5000) findOrder({ x: run.x, y: run.y, walls, displacement: run.numbers[at.shift] }, order);
     },
-    value: (i) => psi[i], ends: () => ["0", "1"],
+    value: (i) => order.size[i], ends: () => ["0", "1"],
   },
 };
-let psi = new Float64Array();
+const order = { re: new Float64Array(), im: new Float64Array(), size: new Float64Array(), neighbours: new Float64Array() };
 let psiAt = 0;
 
 const wheel = Array.from({ length: colourSteps }, (_, k) => {

@@ -34,7 +34,7 @@ function take(told) {
     Object.assign(run, { radius: told.radius, mass: told.mass, species: told.species });
     run.largest = told.radius.reduce((largest, r) => Math.max(largest, r), 0);
     disks = d.disks;
-    box = { lower: d.lower, upper: d.upper, periodic: d.periodic, lengths: [d.upper[0] - d.lower[0], d.upper[1] - d.lower[1]] };
+    box = { lower: d.lower, upper: d.upper, periodic: d.periodic, isCircle: d.isCircle, lengths: [d.upper[0] - d.lower[0], d.upper[1] - d.lower[1]] };
     onDescription.forEach((listener) => listener(d));
   }
   if (told.disks) {
