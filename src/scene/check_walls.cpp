@@ -174,12 +174,12 @@ void check_sweep(const Scene& scene, std::size_t w) {
 
 std::string why_no_work(const Scene& scene, const Effects& effects, std::size_t w) {
   const WallProperties& wall = effects.walls[w];
-  if (!wall.restitution || !wall.oscillation || !wall.oscillation->moves() || wall.oscillation->form != WaveForm::sine) return {};
+  const bool is_sine = wall.oscillation && wall.oscillation->moves() && wall.oscillation->form == WaveForm::sine;
+  if (wall.restitution.value_or(1.0) == 1.0 || !(is_sine || wall.mass)) return {};
   if (std::ranges::none_of(scene.observe, [](const ObservableRequest& request) { return request.name == "work"; })) return {};
   return fmt::format(
-      "walls.{} has restitution and vibrates as a sine, so observe.work cannot tell its work from its heat; remove "
-      "restitution or observe.work",
-      wall_names[w]);
+      "walls.{} has restitution and {}, so observe.work cannot tell its work from its heat; remove restitution or observe.work",
+      wall_names[w], is_sine ? "vibrates as a sine" : "is a piston, whose velocity each hit changes");
 }
 
 void check_walls(const Scene& scene) {

@@ -102,7 +102,7 @@ TEST(Work, OfOtherEffectsAddsUpToo) {
   expect_sum(observed(specular + "[thermostat]\ntemperature = 2\nrate = 0.5\n"));
   expect_sum(observed(specular + "[brownian]\ntemperature = 2\nrate = 0.5\n"));
   expect_sum(observed("[collision]\nrule = \"specular\"\nroughness = 0.5\n[growth]\nrate = 0.01\n"));
-  expect_sum(observed(specular + "[walls]\nright = { mass = 20.0, load = 0.5, restitution = 0.8 }\n"));
+  expect_sum(observed(specular + "[walls]\nright = { mass = 20.0, load = 0.5 }\n"));
   expect_sum(observed(specular + "[shear]\nrate = 0.2\n", "\"periodic\""));
 }
 
