@@ -155,7 +155,7 @@ class Work final : public SavedObservable<Work>, public ChangeFollower {
       const WallProperties& wall = acting_.walls[side];
       const double given = energies_[side] - totals.wall_energy[side];
       double by_motion = given;
-      if (wall.temperature || wall.restitution) {
+      if (wall.temperature || wall.restitution.value_or(1.0) != 1.0) {
         // A sine with restitution is refused (scene/check_walls.cpp): its velocity is another at each contact.
         const double outward = wall.vibration     ? -*wall.vibration
                                : wall.oscillation ? -2.0 * wall.oscillation->amplitude * wall.oscillation->frequency
