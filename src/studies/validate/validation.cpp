@@ -23,7 +23,9 @@ const std::vector<Trial>& all_trials() {
     add_equation_of_state(list);
     add_single_file(list);
     add_collisions(list);
+    add_lorentz_paths(list);
     add_transport(list);
+    add_lorentz_diffusion(list);
     add_cooling_fields_walls(list);
     add_flows(list);
     add_rough_gas(list);
