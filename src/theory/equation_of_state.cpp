@@ -65,4 +65,9 @@ double structure_factor_at_zero(double eta) {
   return 1.0 / (z + eta * z1);
 }
 
+double sound_speed(double eta) {
+  const auto [z, z1, z2] = evaluate(eta);
+  return std::sqrt(z + eta * z1 + z * z);
+}
+
 }  // namespace carom::theory

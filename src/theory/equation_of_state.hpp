@@ -23,6 +23,10 @@ namespace carom::theory {
 /// 1 / (Z + eta Z'). Range and source as above.
 [[nodiscard]] double structure_factor_at_zero(double eta);
 
+/// Returns the speed of sound in units of sqrt(kT / m): c^2 = Z + eta Z' + Z^2, the derivative of P by the mass density along an
+/// adiabat, dT / T = Z d rho / rho. Range and source as above.
+[[nodiscard]] double sound_speed(double eta);
+
 /// Virial coefficients B_n / (pi sigma^2 / 4)^(n - 1), Clisby & McCoy, J. Stat. Phys. 122, 15 (2006): b_2 ... b_10; b_5 and b_6
 /// on are known to the last digits given, or one or two of them.
 inline constexpr std::array<double, 9> virial_coefficients = {2.0,     3.1280178, 4.2578545, 5.336897, 6.36296,

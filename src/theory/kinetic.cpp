@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <utility>
 
@@ -176,6 +177,12 @@ double instantaneous_conductivity(double eta, std::int64_t disks) {
 
 namespace {
 
+/// Enskog's longitudinal viscosity, shear and bulk, over the mass density.
+double longitudinal_viscosity(double eta) {
+  const double rho = density(eta), bulk_viscosity = rho * (kolafa_rottner(eta) - 1.0) / sqrt_pi;
+  return (enskog_viscosity(eta) + bulk_viscosity) / rho;
+}
+
 /// The shear and sound waves of a square periodic box, with Enskog's coefficients.
 class SlowModes {
  public:
@@ -183,11 +190,10 @@ class SlowModes {
     const double Z = kolafa_rottner(eta), rho = density(eta);
     const double D = enskog_diffusion(eta), viscosity = enskog_viscosity(eta), conductivity = enskog_conductivity(eta);
     const double stiffness = 1.0 / structure_factor_at_zero(eta);  // d P / d rho at constant temperature
-    const double bulk_viscosity = rho * (Z - 1.0) / sqrt_pi;
     // A disk's heat capacity is 1 at constant volume and 1 + Z^2 / stiffness at constant pressure.
     const double excess = Z * Z / stiffness;
-    const double damping = 0.5 * ((viscosity + bulk_viscosity) / rho + excess * conductivity / (rho * (1.0 + excess)));
-    sound_ = std::sqrt(stiffness + Z * Z);
+    const double damping = 0.5 * (longitudinal_viscosity(eta) + excess * conductivity / (rho * (1.0 + excess)));
+    sound_ = sound_speed(eta);
     shear_ = D + viscosity / rho;
     wave_ = D + damping;
     unit_ = 2.0 * pi / std::sqrt(disks_ / rho);
@@ -213,6 +219,24 @@ class SlowModes {
 };
 
 }  // namespace
+
+std::complex<double> sound_wave(double eta, double k) {
+  // Waves of density n, velocity u along k and temperature T, in units of rho, sqrt(kT / m) and T:
+  //   lambda n = -i k u,  lambda u = -i k (stiffness n + Z T) - b u,  lambda T = -i k Z u - a T.
+  const double Z = kolafa_rottner(eta), stiffness = 1.0 / structure_factor_at_zero(eta);
+  const double a = enskog_conductivity(eta) / density(eta) * k * k, b = longitudinal_viscosity(eta) * k * k;
+  const double from_density = stiffness * k * k, from_temperature = Z * Z * k * k;
+  std::complex<double> lambda(0.0, sound_speed(eta) * k);
+  for (int step = 0; step < 50; ++step) {  // Newton's, from the wave without damping
+    const std::complex<double> value = (lambda * (lambda + b) + from_density) * (lambda + a) + from_temperature * lambda;
+    const std::complex<double> slope =
+        (2.0 * lambda + b) * (lambda + a) + lambda * (lambda + b) + from_density + from_temperature;
+    const std::complex<double> change = value / slope;
+    lambda -= change;
+    if (std::abs(change) <= 1e-15 * std::abs(lambda)) break;
+  }
+  return lambda;
+}
 
 double velocity_correlation_of_modes(double eta, std::int64_t disks, double t) {
   return SlowModes(eta, disks).sum(t, [t](double a, double b, double w) {

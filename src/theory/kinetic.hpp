@@ -2,6 +2,7 @@
 // Kinetic theory of hard disks, as Boltzmann and Enskog have it. Where disks are of one kind, the units are the diameter, the
 // mass and kT.
 
+#include <complex>
 #include <cstdint>
 #include <span>
 
@@ -81,6 +82,11 @@ struct Component {
 /// and zero total momentum; derived in docs/validation.md. Requires eta <= 0.63 and disks > 2.
 [[nodiscard]] double instantaneous_viscosity(double eta, std::int64_t disks);
 [[nodiscard]] double instantaneous_conductivity(double eta, std::int64_t disks);
+
+/// Returns the exponent of a sound wave of wave number k > 0, whose amplitude is the real part of exp(lambda t): the complex root
+/// of linearised hydrodynamics (Navier, Stokes, Fourier) with Enskog's coefficients. For small k it is i c k - Gamma k^2; terms
+/// of higher order than hydrodynamics has are left out.
+[[nodiscard]] std::complex<double> sound_wave(double eta, double k);
 
 /// Returns <v_x(0) v_x(t)> of disks in a square periodic box at late times t > 0, when the slow modes of the fluid carry the
 /// velocity of a disk: the sum over the wave vectors k of the box, but 0,

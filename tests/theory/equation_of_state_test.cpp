@@ -46,5 +46,23 @@ TEST(EquationOfState, StructureFactorAtZeroIsOneOverTheSlopeOfThePressure) {
   }
 }
 
+TEST(EquationOfState, SoundIsTheSlopeOfThePressureAlongAnAdiabat) {
+  EXPECT_NEAR(theory::sound_speed(0.0), std::sqrt(2.0), 1e-15) << "an ideal gas in two dimensions";
+  for (const double eta : {0.2, 0.4, 0.65}) {
+    const auto pressure = [&](double factor) {  // over rho kT at factor 1, where the density is `factor` times that of eta
+      double log_temperature = 0.0;             // d ln T = Z d ln rho: no heat, and the energy of N disks is N kT
+      constexpr int steps = 1000;
+      for (int k = 0; k < steps; ++k) {
+        const double log_density = std::log(factor) * (k + 0.5) / steps;
+        log_temperature += theory::kolafa_rottner(eta * std::exp(log_density)) * std::log(factor) / steps;
+      }
+      return factor * std::exp(log_temperature) * theory::kolafa_rottner(eta * factor);
+    };
+    // Central differences err by h^2 / 6 times a third derivative, of the order of 1e5 at most.
+    constexpr double h = 1e-5;
+    EXPECT_NEAR(std::pow(theory::sound_speed(eta), 2), (pressure(1.0 + h) - pressure(1.0 - h)) / (2.0 * h), 1e-4) << eta;
+  }
+}
+
 }  // namespace
 }  // namespace carom::test

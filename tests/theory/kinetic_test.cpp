@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cmath>
+#include <complex>
 #include <cstddef>
 #include <numbers>
 #include <random>
@@ -227,6 +228,38 @@ TEST(VirialSeries, IsTheEquationOfStateAtLowDensity) {
     EXPECT_NEAR(theory::virial_series(eta), theory::kolafa_rottner(eta),
                 1e-5 * eta * eta + 12.0 * std::pow(eta, 10) + 1e-4 * std::pow(eta, 4))
         << eta;
+}
+
+TEST(SoundWave, IsTheRootOfTheEquationsOfHydrodynamics) {
+  for (const double eta : {0.2, 0.4}) {
+    constexpr double k = 0.1;
+    const double Z = theory::kolafa_rottner(eta), stiffness = 1.0 / theory::structure_factor_at_zero(eta);
+    const double rho = 4.0 * eta / std::numbers::pi, bulk = rho * (Z - 1.0) / std::sqrt(std::numbers::pi);
+    const double a = theory::enskog_conductivity(eta) / rho * k * k, b = (theory::enskog_viscosity(eta) + bulk) / rho * k * k;
+    const std::complex<double> lambda = theory::sound_wave(eta, k), i(0.0, 1.0);
+    // Density, velocity and temperature of the wave; all three equations must give the same growth.
+    const std::complex<double> n = 1.0, u = lambda * n / (-i * k), T = -i * k * Z * u / (lambda + a);
+    EXPECT_LT(std::abs(lambda * u + i * k * (stiffness * n + Z * T) + b * u), 1e-12) << eta;
+    EXPECT_LT(lambda.real(), 0.0);
+    // Its energy is lost to friction and heat conduction alone: d/dt (stiffness |n|^2 + |u|^2 + |T|^2) / 2.
+    const double energy = stiffness * std::norm(n) + std::norm(u) + std::norm(T);
+    EXPECT_NEAR(lambda.real() * energy, -b * std::norm(u) - a * std::norm(T), 1e-12 * energy) << eta;
+  }
+}
+
+TEST(SoundWave, OfALongWaveHasTheSpeedAndTheDampingOfSound) {
+  for (const double eta : {0.1, 0.4}) {
+    constexpr double k = 1e-3;
+    const double Z = theory::kolafa_rottner(eta), stiffness = 1.0 / theory::structure_factor_at_zero(eta);
+    const double rho = 4.0 * eta / std::numbers::pi, bulk = rho * (Z - 1.0) / std::sqrt(std::numbers::pi);
+    const double share = Z * Z / (stiffness + Z * Z);  // (gamma - 1) / gamma, gamma = c_p / c_v
+    const double damping =
+        0.5 * (theory::enskog_viscosity(eta) + bulk + share * theory::enskog_conductivity(eta)) / rho;  // Landau & Placzek
+    const std::complex<double> lambda = theory::sound_wave(eta, k);
+    EXPECT_NEAR(lambda.imag() / k, theory::sound_speed(eta), 20.0 * k * k)
+        << eta;  // (Gamma k)^2 / c and the like; Gamma is 5 at 0.1
+    EXPECT_NEAR(-lambda.real() / (k * k), damping, 100.0 * k * k) << eta;
+  }
 }
 
 }  // namespace

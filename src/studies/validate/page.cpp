@@ -23,7 +23,7 @@ struct TrialPlot {
   const char* caption;
   bool log = false;  ///< the axis of y
 };
-constexpr std::array<TrialPlot, 17> trial_plots = {{
+constexpr std::array<TrialPlot, 18> trial_plots = {{
     {"speeds-periodic", "Maxwell and Boltzmann", "Speeds in a periodic box", "speed (v_T)", "density",
      "Two gases that started far from equilibrium, after fifty collisions per disk, beside the law for 64 disks."},
     {"speeds-walls", "Maxwell and Boltzmann", "Speeds between walls", "speed (v_T)", "density",
@@ -47,6 +47,8 @@ constexpr std::array<TrialPlot, 17> trial_plots = {{
      "In two dimensions D grows with the logarithm of time. Beyond the time that sound takes to the middle of the box it depends "
      "on "
      "the box."},
+    {"sound", "transport", "Intermediate scattering of the longest wave", "t (periods of the wave)", "F(k,t) / F(k,0)",
+     "A density wave swings as sound while the part that heat carries dies out; lines are the fits."},
     {"long-time-tail", "transport", "Autocorrelation of the velocities of a million disks", "t (mean free times)",
      "<v_x(0) v_x(t)>",
      "Beyond twenty mean free times a disk is carried by the vortex that its own motion has made. The line sums the shear and "

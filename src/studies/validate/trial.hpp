@@ -40,6 +40,7 @@ void add_single_file(std::vector<Trial>& trials);
 void add_collisions(std::vector<Trial>& trials);
 void add_lorentz_paths(std::vector<Trial>& trials);
 void add_transport(std::vector<Trial>& trials);
+void add_sound(std::vector<Trial>& trials);
 void add_lorentz_diffusion(std::vector<Trial>& trials);
 void add_cooling_fields_walls(std::vector<Trial>& trials);
 void add_flows(std::vector<Trial>& trials);

@@ -25,6 +25,7 @@ const std::vector<Trial>& all_trials() {
     add_collisions(list);
     add_lorentz_paths(list);
     add_transport(list);
+    add_sound(list);
     add_lorentz_diffusion(list);
     add_cooling_fields_walls(list);
     add_flows(list);
