@@ -90,6 +90,13 @@ struct Parabola {
 template <class Real, template <class> class Gap>
 [[nodiscard]] Real follow(const Gap<Real>& gap, Real from, Real to, Real until);
 
+/// Returns whether the floor's place at a time is lost in the digits of that time: it could be anywhere within 64 u H (see
+/// oscillating_fall_time()), so that a body low enough for a contact has it now.
+template <class Real>
+[[nodiscard]] bool is_lost(const OscillatingFloor<Real>& floor, Real time) {
+  return floor.periods(time) * (32 * epsilon<Real>) >= 1;
+}
+
 /// The gap between a body and a floor that moves as a sine.
 template <class Real>
 struct SineGap {
@@ -138,7 +145,7 @@ struct SineGap {
     };
     const auto gap_at = [this](Real t) { return gap(t); };
     bool falling = shrinks(from);
-    if (falling && !(gap(from).value > 0)) return from;
+    if (is_lost(this->floor, from) || (falling && !(gap(from).value > 0))) return from;
 
     const std::array<Real, 2> in_period = bends();
     const Real start = this->floor.periods(from);
@@ -179,6 +186,7 @@ struct SawtoothGap {
   /// Returns what SineGap::first_contact does.
   [[nodiscard]] Real first_contact(Real from, Real to, Real until) const {
     using std::floor;
+    if (is_lost(this->floor, from)) return from;
     const Real start = this->floor.periods(from);
     Real whole = floor(start);
     Real height = this->floor.amplitude * (2 * (start - whole) - 1);

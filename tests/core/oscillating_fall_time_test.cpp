@@ -194,6 +194,23 @@ TEST_F(OscillatingFall, IsFoundAtOnceHoweverFastTheFloorIs) {
   EXPECT_LE(t, 1e3 - 1e-3 + 1e-9 + 1e3 * 4 * u);
 }
 
+TEST_F(OscillatingFall, EndsHoweverSlowTheBodyIs) {
+  // When such a body arrives, a period is less than the last digits of the time: the contact is where the body is as high as the
+  // floor can be, within the bound of the header. A search for the period once had no end.
+  for (const bool sawtooth : {false, true})
+    for (const FallOntoOscillation& fall : {FallOntoOscillation{6049.0, -7.4e-11, 0.0, {5.5e-8, 292.0, 0.4, sawtooth}},
+                                            FallOntoOscillation{3.0, -1e-16, 0.0, {0.5, 0.25, 0.0, sawtooth}},
+                                            FallOntoOscillation{3.0, -5e-324, 0.0, {0.5, 0.25, 0.0, sawtooth}},
+                                            FallOntoOscillation{4e4, -7e-12, -1e-30, {0.4, 2.7, 0.25, sawtooth}}}) {
+      const double t = fall.contact();
+      if (fall.w == -5e-324) {
+        EXPECT_GT(t, 1e300) << fall;  // later than numbers go, perhaps
+        continue;
+      }
+      EXPECT_LE(std::abs(static_cast<double>(fall.gap(Quad(t)))), 64 * u * fall.scale(t)) << fall;
+    }
+}
+
 TEST(SineOfTurns, HasAllItsDigitsInEveryType) {
   std::mt19937_64 random(3);
   for (int n = 0; n < 20'000; ++n) {
