@@ -46,12 +46,13 @@ TEST(CheckCommand, DescribesEachEffectAndNamesTheAbsent) {
                          "walls={ left = { temperature = 2.0 }, top = { restitution = 0.8 } }", "--set",
                          "obstacles=[{ disk = { centre = [0.0, 0.0], radius = 0.1 } }]", "--set", "collision.restitution=0.9"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("; restitution 0.9\n"), HasSubstr("  gravity     acceleration (0, -1)\n"),
-                                 HasSubstr("  wall        left: thermal, kT = 2\n"),
-                                 HasSubstr("  wall        top: restitution 0.8\n"), HasSubstr("  obstacles   1 fixed disk\n"),
-                                 HasSubstr("\nNot simulated: rough disks with spin, growing disks, a thermostat, run-and-tumble motion, "
-                                           "Brownian motion, shear, square wells, stepped potentials, drag, non-additive "
-                                           "diameters.\n")));
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("; restitution 0.9\n"), HasSubstr("  gravity     acceleration (0, -1)\n"),
+                    HasSubstr("  wall        left: thermal, kT = 2\n"), HasSubstr("  wall        top: restitution 0.8\n"),
+                    HasSubstr("  obstacles   1 fixed disk\n"),
+                    HasSubstr("\nNot simulated: rough disks with spin, growing disks, a thermostat, run-and-tumble motion, "
+                              "Brownian motion, shear, square wells, stepped potentials, drag, non-additive "
+                              "diameters.\n")));
 }
 
 TEST(CheckCommand, SaysWhichEngineRunsTheSceneAndWhyAndHowMuchMemoryItTakes) {

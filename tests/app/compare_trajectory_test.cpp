@@ -55,7 +55,8 @@ TEST_F(CompareTrajectory, IsRefusedWithoutADirectoryBeingMade) {
   refused({"compare", "gas.toml", "--seed", "5", "--trajectory", "other/samples.csv"}, "is not the start of this scene: disk ");
   refused({"compare", "gas.toml", "--trajectory", "nowhere.csv"}, "nowhere.csv");
   refused({"compare", "gas.toml", "--every", "0.1"}, "--trajectory");
-  refused({"compare", "gas.toml", "--trajectory", "other/samples.csv", "--resume"}, "--trajectory excludes --resume");
+  refused({"compare", "gas.toml", "--trajectory", "other/samples.csv", "--resume"},
+          "--trajectory and --resume exclude each other; give one of them");
   EXPECT_FALSE(std::filesystem::exists(file("gas-compare")));
 }
 

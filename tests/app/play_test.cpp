@@ -50,7 +50,7 @@ TEST_F(PlayCommand, RefusesWhatItCannotPlay) {
   refused({"play", "nowhere"}, "nowhere: there is no such directory");
   refused({"play", "gas.toml"}, "gas.toml: this is a file; name the run directory");
   refused({"play", "."}, "no finished run");
-  refused({"play"}, "directory is required");
+  refused({"play"}, "RUN_DIR is missing, the directory that carom run has written");
 }
 
 TEST_F(PlayCommand, RefusesPlacesThatAreTakenOrNoPage) {

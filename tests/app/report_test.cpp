@@ -94,7 +94,7 @@ TEST_F(ReportCommand, RefusesWhatIsNoFinishedRun) {
   refused({"report", "nowhere"}, "nowhere: there is no such directory");
   refused({"report", "gas.toml"}, "gas.toml: this is a file; name the run directory");
   refused({"report", "."}, "no finished run");
-  refused({"report"}, "directory is required");
+  refused({"report"}, "RUN_DIR is missing, the directory that carom run has written");
   fs::create_directory(file("going"));
   write_text(file("going/trajectory.h5md.partial"), "");
   refused({"report", "going"}, "going: this run still goes on");

@@ -307,7 +307,8 @@ TEST(Validation, AGroupStandsForItsTrials) {
   };
   EXPECT_THAT(names({.only = {"single file"}}),
               ElementsAre("single-file-1.8-1", "single-file-1.8-2", "single-file-1.5-0.95", "single-file-1.2-1.2",
-                          "single-file-steps-1.5-1.2", "single-file-steps-1.8-1.1"));
+                          "single-file-steps-1.5-1.2", "single-file-steps-1.8-1.1", "single-file-well-1.5-1.3",
+                          "single-file-shoulder-1.3-1.2"));
   const std::vector<std::string> quick = names({.only = {"equation of state"}});
   EXPECT_THAT(quick, Not(Contains("transition-0.708")));
   EXPECT_THAT(names({.full = true, .only = {"equation of state"}}), Contains("transition-0.708"));
