@@ -5,9 +5,9 @@
 //
 // A wall gives -E, E the energy that it has received in Totals. What of it is work follows from the momentum that the wall has
 // received, outward J and along itself S: work = -(J u + S s) for a wall that moves outward at u and slides at s; the rest is
-// heat. A piston is elastic, and does work alone. No engine sums what drag takes, and what growing rough disks gain with their moments of
-// inertia: it is the energy gained that no other part explains. The numbers at the end are sums, not means, and have no errors: a
-// run has one of them, and the seeds of a sweep give their distribution. ThinnedRows keeps them against time.
+// heat. A piston is elastic, and does work alone. No engine sums what drag takes, and what growing rough disks gain with their
+// moments of inertia: it is the energy gained that no other part explains. The numbers at the end are sums, not means, and have
+// no errors: a run has one of them, and the seeds of a sweep give their distribution. ThinnedRows keeps them against time.
 
 #include "observe/energy.hpp"
 #include "observe/observables.hpp"
