@@ -147,7 +147,8 @@ TEST_F(SweepReader, ATableHasNumbersThatSummariesHave) {
               ElementsAre("pressure.Z", "observables.temperature.kT"));
   EXPECT_EQ(files_.refusal(scene_line + "table = [\"presure.Z\"]\n"),
             "sweep.toml:2:10: table.0 is \"presure.Z\", and no run has that number; did you mean \"pressure.Z\"?");
-  EXPECT_THAT(files_.refusal(scene_line + "table = [\"wall_seconds\"]\n"), HasSubstr("no run has that number; there are disks, packing_fraction, time, samples, "));
+  EXPECT_THAT(files_.refusal(scene_line + "table = [\"wall_seconds\"]\n"),
+              HasSubstr("no run has that number; there are disks, packing_fraction, time, samples, "));
   EXPECT_THAT(files_.refusal(scene_line + "table = [\"time\", \"time\"]\n"), HasSubstr("in the list already"));
   EXPECT_THAT(files_.refusal(scene_line + "table = []\n"), StartsWith("sweep.toml:2:9: table is an empty list"));
 }
