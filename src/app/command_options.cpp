@@ -258,7 +258,7 @@ void add_sweep(CLI::App& program, Action& action, const Invocation& invocation) 
 void add_validate(CLI::App& program, Action& action, const Invocation& invocation) {
   CLI::App* command = program.add_subcommand("validate", "Compare the engine with kinetic theory and the literature");
   const auto options = std::make_shared<ValidateCommandOptions>();
-  command->add_flag("--quick", options->quick, "Under three minutes on one core; the default");
+  command->add_flag("--quick", options->quick, "Some four minutes on one core; the default");
   command->add_flag("--full", options->full,
                     "Twenty times as many collisions, and the liquid-hexatic transition: up to two hours");
   command->add_option("--seed", options->seed, "Seed of all random numbers (default: 1)")->type_name("N");
