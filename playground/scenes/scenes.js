@@ -46,9 +46,9 @@ const packing = (usual, most = 0.7) => ({ key: "eta", least: 0.01, usual, most, 
 const temperature = (usual = 1, most = 5) => ({ key: "kT", least: 0.1, usual, most, step: 0.1 });
 
 /// A gas of one kind, from random places or, where it is dense, from a lattice.
-const gasOf = (p, name, boundary) => {
+const gasOf = (p, name, boundary, velocities = kT(p.kT)) => {
   const side = sideOf(p.n, p.eta);
-  return disksOf({ name: "gas", count: p.n, positions: p.eta > 0.45 ? '"hexagonal"' : '"random"', velocities: kT(p.kT) }) +
+  return disksOf({ name: "gas", count: p.n, positions: p.eta > 0.45 ? '"hexagonal"' : '"random"', velocities }) +
     boxOf([0, side], [0, side], boundary);
 };
 
@@ -134,7 +134,7 @@ const scenes = [
   {
     id: "swimmers", group: "gases", start: [count(200, 3000), packing(0.15, 0.5)], follow: 0,
     live: ["tumbling", "radius"],
-    make: (p) => titled("Run and tumble") + gasOf({ ...p, kT: 1 }, "swimmers", periodic).replace("{ temperature = 1 }", "{ speed = 1.0 }") +
+    make: (p) => titled("Run and tumble") + gasOf(p, "swimmers", periodic, "{ speed = 1.0 }") +
       collision() + "[tumbling]\nrate = 0.5\n\n" + runOf(p),
   },
   {
