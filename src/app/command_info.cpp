@@ -109,7 +109,7 @@ constexpr std::array<Example, 3> hardcases_examples = {{
     {"carom hardcases --show wall_and_lower_disk_at_once", "print its text"},
 }};
 constexpr std::array<Example, 3> validate_examples = {{
-    {"carom validate", "all quick checks, in some four minutes"},
+    {"carom validate", "all quick checks, in one to two minutes"},
     {"carom validate --list", "list the trials"},
     {"carom validate --only reversal-frozen --out one", "run one of them"},
 }};

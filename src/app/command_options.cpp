@@ -258,13 +258,14 @@ void add_sweep(CLI::App& program, Action& action, const Invocation& invocation) 
 void add_validate(CLI::App& program, Action& action, const Invocation& invocation) {
   CLI::App* command = program.add_subcommand("validate", "Compare the engine with kinetic theory and the literature");
   const auto options = std::make_shared<ValidateCommandOptions>();
-  command->add_flag("--quick", options->quick, "Some four minutes on one core; the default");
+  command->add_flag("--quick", options->quick, "One to two minutes on two cores; the default");
   command->add_flag("--full", options->full,
-                    "Twenty times as many collisions, and the liquid-hexatic transition: up to two hours");
+                    "Twenty times as many collisions, and the liquid-hexatic transition: one to two hours on two cores");
   command->add_option("--seed", options->seed, "Seed of all random numbers (default: 1)")->type_name("N");
   command->add_option("--only", options->only, "Run only this trial, or this group of trials; may be repeated")
       ->type_name("TRIAL")
       ->allow_extra_args(false);
+  command->add_option("--threads", options->threads, "Number of trials at a time (default: one per processor)")->type_name("N");
   command->add_option("-o,--out", options->out, "Directory for the results (default: validation)")->type_name("DIR");
   command->add_flag("--list", options->list, "List the trials and run none");
   command->add_flag("--force", options->force, "Replace the results that the directory holds");

@@ -16,9 +16,11 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <mutex>
 #include <numbers>
 #include <random>
 #include <set>
+#include <thread>
 
 namespace carom::test {
 namespace {
@@ -352,6 +354,35 @@ TEST(Validation, TakesWhatIsKnownAndStopsWhereItIsTold) {
   const Validation stopped = validate(options, hooks);
   EXPECT_FALSE(stopped.complete);
   EXPECT_TRUE(stopped.results.empty());
+}
+
+TEST(Validation, FindsTheSameOnAnyNumberOfThreadsInTheOrderOfTheTrials) {
+  const auto found_by = [](int threads) {
+    std::mutex mutex;
+    std::size_t ended = 0;
+    ValidateHooks hooks;
+    const std::thread::id caller = std::this_thread::get_id();
+    hooks.proceed = [&](const std::string&, double fraction) {
+      EXPECT_EQ(std::this_thread::get_id(), caller);
+      EXPECT_LE(fraction, 1.0);
+      return true;
+    };
+    hooks.done = [&](const TrialResult&) {
+      EXPECT_TRUE(mutex.try_lock()) << "two calls at once";
+      ++ended;
+      mutex.unlock();
+    };
+    Validation found = validate({.only = {"equipartition-walls", "contact-values", "h-theorem"}, .threads = threads}, hooks);
+    EXPECT_TRUE(found.complete);
+    EXPECT_EQ(ended, 3U);
+    for (TrialResult& result : found.results) result.seconds = 0.0;
+    return found;
+  };
+  const Validation one = found_by(1), three = found_by(3);
+  ASSERT_THAT(one.results, SizeIs(3));
+  EXPECT_EQ(one.results.front().trial, "h-theorem");
+  EXPECT_EQ(one.results.back().trial, "contact-values");
+  EXPECT_EQ(validation_json(one, ""), validation_json(three, ""));
 }
 
 TEST(Validation, MarkdownKeepsItsColumnsWhateverTheText) {

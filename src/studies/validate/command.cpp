@@ -64,7 +64,13 @@ ValidateOptions validate_options(const ValidateCommandOptions& options) {
   // Each run of a trial has a seed of its own, which a scene must be able to hold.
   constexpr std::int64_t most = 9'000'000'000'000;
   if (options.seed < 0 || options.seed > most) throw UsageError(fmt::format("--seed {}: it can be 0 to {}", options.seed, most));
-  ValidateOptions chosen{.full = options.full, .seed = static_cast<std::uint64_t>(options.seed), .only = options.only};
+  constexpr int most_threads = 4096;
+  if (options.threads && (*options.threads < 1 || *options.threads > most_threads))
+    throw UsageError(fmt::format("--threads {}: it can be 1 to {}", *options.threads, most_threads));
+  ValidateOptions chosen{.full = options.full,
+                         .seed = static_cast<std::uint64_t>(options.seed),
+                         .only = options.only,
+                         .threads = options.threads.value_or(0)};
   try {
     (void)chosen_trials(chosen);
   } catch (const std::invalid_argument& error) {

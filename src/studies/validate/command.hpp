@@ -5,6 +5,7 @@
 #include "terminal/command.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct ValidateCommandOptions {
   bool full = false;
   std::int64_t seed = 1;
   std::vector<std::string> only;  ///< names of trials; empty: all
+  std::optional<int> threads;     ///< number of trials at a time; empty: one per processor
   std::string out;                ///< empty: validation
   bool list = false;
   bool force = false;

@@ -2,6 +2,7 @@
 // hexatic, the solid near close packing.
 
 #include "studies/validate/gas.hpp"
+#include "studies/validate/in_threads.hpp"
 #include "theory/equation_of_state.hpp"
 #include "theory/kinetic.hpp"
 #include "theory/microcanonical.hpp"
@@ -12,9 +13,8 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <exception>
+#include <functional>
 #include <memory>
 #include <numbers>
 #include <thread>
@@ -167,38 +167,20 @@ TrialResult five_digits(const std::string& trial, const theory::ReferencePressur
   constexpr double collisions = 1.05e9, digits = 1e-5;
   std::array<Measured, runs> found{};
   std::array<TrialResult, runs> done;
-  std::atomic<std::size_t> next = 0;
-  std::atomic<bool> stopped = false;
-  std::exception_ptr error;  // that of the run that stopped the others
-  const auto take_runs = [&](const Effort& mine) {
-    for (std::size_t k = next++; k < runs && !stopped; k = next++) {
-      try {
-        const Gas gas{
-            .disks = known.disks, .packing_fraction = known.packing_fraction, .collisions = collisions, .equilibrate = 2000.0};
-        const double rate = theory::disk_collision_rate(theory::kolafa_rottner(known.packing_fraction));
-        Blocking pressure;
-        std::vector<std::unique_ptr<Observable>> own;
-        own.push_back(std::make_unique<RareMomentum>(128.0 / rate, square_box(known.disks, known.packing_fraction).area(),
-                                                     known.disks, pressure));
-        (void)run(scene_of(gas, mine.seed_of(k)), mine, done[k], std::move(own));
-        const auto estimate = pressure.estimate();
-        found[k] = {estimate->mean, estimate->error.value_or(NAN)};
-      } catch (...) {
-        if (!stopped.exchange(true)) error = std::current_exception();
-      }
-    }
+  const auto one_run = [&](std::size_t k, const std::function<bool()>& go_on) {
+    const Effort mine{.full = effort.full, .seed = effort.seed, .proceed = go_on};
+    const Gas gas{
+        .disks = known.disks, .packing_fraction = known.packing_fraction, .collisions = collisions, .equilibrate = 2000.0};
+    const double rate = theory::disk_collision_rate(theory::kolafa_rottner(known.packing_fraction));
+    Blocking pressure;
+    std::vector<std::unique_ptr<Observable>> own;
+    own.push_back(std::make_unique<RareMomentum>(128.0 / rate, square_box(known.disks, known.packing_fraction).area(),
+                                                 known.disks, pressure));
+    (void)run(scene_of(gas, mine.seed_of(k)), mine, done[k], std::move(own));
+    const auto estimate = pressure.estimate();
+    found[k] = {estimate->mean, estimate->error.value_or(NAN)};
   };
-  {
-    // This thread alone asks whether to go on.
-    const Effort beside{.full = effort.full, .seed = effort.seed, .proceed = [&] { return !stopped.load(); }};
-    const Effort here{
-        .full = effort.full, .seed = effort.seed, .proceed = [&] { return !stopped && (!effort.proceed || effort.proceed()); }};
-    std::vector<std::jthread> others;
-    for (unsigned other = 1; other < std::clamp(std::thread::hardware_concurrency(), 1U, static_cast<unsigned>(runs)); ++other)
-      others.emplace_back([&] { take_runs(beside); });
-    take_runs(here);
-  }
-  if (error) std::rethrow_exception(error);
+  if (!in_threads(runs, std::max(1U, std::thread::hardware_concurrency()), effort.proceed, one_run)) throw Interrupted{};
   TrialResult result{.trial = trial};
   Measured mean{0.0, 0.0};
   double squares = 0.0;
@@ -307,7 +289,7 @@ void add_equation_of_state(std::vector<Trial>& trials) {
   {
     const theory::ReferencePressure& known = theory::li_2022.front();
     const std::string name = fmt::format("pressure-{}-disks-{:.2f}-five-digits", known.disks, known.packing_fraction);
-    trials.push_back({name, group, true, [=](const Effort& effort) { return five_digits(name, known, effort); }});
+    trials.push_back({name, group, true, [=](const Effort& effort) { return five_digits(name, known, effort); }, true});
   }
   for (const double alpha : {1e-2, 1e-3}) {
     const std::string name = fmt::format("crystal-{:g}", alpha);

@@ -227,7 +227,7 @@ void add_transport(std::vector<Trial>& trials) {
   trials.push_back(
       {"long-time-tail", group, false, [](const Effort& effort) { return long_time_tail("long-time-tail", effort); }});
   trials.push_back({"long-time-tail-million", group, true,
-                    [](const Effort& effort) { return long_time_tail_of_a_million("long-time-tail-million", effort); }});
+                    [](const Effort& effort) { return long_time_tail_of_a_million("long-time-tail-million", effort); }, true});
 }
 
 }  // namespace carom::validation

@@ -30,6 +30,7 @@ struct Trial {
   std::string group;  ///< "equation of state"
   bool only_full = false;
   std::function<TrialResult(const Effort&)> run;
+  bool on_all_processors = false;  ///< its runs share the processors
 };
 
 // One file each.

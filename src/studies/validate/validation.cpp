@@ -1,6 +1,7 @@
 #include "studies/validate/validation.hpp"
 
 #include "core/seconds.hpp"
+#include "studies/validate/in_threads.hpp"
 
 #include <fmt/format.h>
 #include <boost/math/distributions/chi_squared.hpp>
@@ -9,7 +10,13 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <set>
 #include <stdexcept>
+#include <thread>
+#include <utility>
 
 namespace carom {
 
@@ -78,28 +85,57 @@ std::vector<validation::Trial> chosen_trials(const ValidateOptions& options) {
   return trials;
 }
 
-Validation validate(const ValidateOptions& options, const ValidateHooks& hooks, const Validation& before) {
-  Validation validation{.options = options};
-  const std::vector<validation::Trial> trials = chosen_trials(options);
-  for (std::size_t k = 0; k < trials.size(); ++k) {
-    const validation::Trial& trial = trials[k];
-    const auto known = std::find_if(before.results.begin(), before.results.end(),
-                                    [&](const TrialResult& result) { return result.trial == trial.name; });
-    if (known != before.results.end()) {
-      validation.results.push_back(*known);
-      continue;
+namespace {
+
+/// The trials of one validation while they run on several threads.
+class RunningTrials {
+ public:
+  RunningTrials(const ValidateOptions& options, const ValidateHooks& hooks, const Validation& before)
+      : options_(options), hooks_(hooks), trials_(chosen_trials(options)), found_(trials_.size()) {
+    for (std::size_t k = 0; k < trials_.size(); ++k) {
+      const auto known = std::find_if(before.results.begin(), before.results.end(),
+                                      [&](const TrialResult& result) { return result.trial == trials_[k].name; });
+      if (known != before.results.end())
+        found_[k] = *known, ++finished_;
+      else
+        (trials_[k].on_all_processors ? alone_ : together_).push_back(k);
     }
-    const double fraction = static_cast<double>(k) / static_cast<double>(trials.size());
-    const validation::Effort effort{.full = options.full, .seed = options.seed, .proceed = [&] {
-                                      return !hooks.proceed || hooks.proceed(trial.name, fraction);
-                                    }};
+  }
+
+  /// Runs all trials that are not known. Returns false where ValidateHooks::proceed did.
+  bool run() {
+    const unsigned threads =
+        options_.threads > 0 ? static_cast<unsigned>(options_.threads) : std::max(1U, std::thread::hardware_concurrency());
+    return run(together_, threads) && run(alone_, 1);
+  }
+
+  /// Returns what has been found, in the order of the trials.
+  [[nodiscard]] std::vector<TrialResult> results() const {
+    std::vector<TrialResult> list;
+    for (const std::optional<TrialResult>& result : found_)
+      if (result) list.push_back(*result);
+    return list;
+  }
+
+ private:
+  bool run(const std::vector<std::size_t>& which, unsigned threads) {
+    return validation::in_threads(
+        which.size(), threads, [&] { return proceed(); },
+        [&](std::size_t k, const std::function<bool()>& proceed) { run_one(which[k], proceed); });
+  }
+
+  void run_one(std::size_t k, const std::function<bool()>& proceed) {
+    {
+      const std::scoped_lock lock(mutex_);
+      running_.insert(k);
+    }
     const auto start = std::chrono::steady_clock::now();
-    TrialResult result{.trial = trial.name};
+    TrialResult result{.trial = trials_[k].name};
     try {
-      if (!effort.proceed()) return validation;
-      result = trial.run(effort);
+      if (!proceed()) throw validation::Interrupted{};
+      result = trials_[k].run({.full = options_.full, .seed = options_.seed, .proceed = proceed});
     } catch (const validation::Interrupted&) {
-      return validation;
+      throw;
     } catch (const std::exception& error) {
       result.checks.push_back({.name = "trials that ran to their end",
                                .theory = fmt::format("it ended with an error: {}", error.what()),
@@ -107,11 +143,41 @@ Validation validate(const ValidateOptions& options, const ValidateHooks& hooks, 
                                .measured = {0.0, 0.0}});
     }
     result.seconds = seconds_since(start);
-    if (hooks.done) hooks.done(result);
-    validation.results.push_back(std::move(result));
+    const std::scoped_lock lock(mutex_);
+    if (hooks_.done) hooks_.done(result);
+    found_[k] = std::move(result);
+    running_.erase(k);
+    ++finished_;
   }
-  validation.complete = true;
-  return validation;
+
+  bool proceed() {
+    if (!hooks_.proceed) return true;
+    std::string doing;
+    double fraction;
+    {
+      const std::scoped_lock lock(mutex_);
+      if (!running_.empty()) doing = trials_[*running_.begin()].name;
+      fraction = static_cast<double>(finished_) / static_cast<double>(trials_.size());
+    }
+    return hooks_.proceed(doing, fraction);
+  }
+
+  const ValidateOptions& options_;
+  const ValidateHooks& hooks_;
+  const std::vector<validation::Trial> trials_;
+  std::vector<std::size_t> together_, alone_;  ///< numbers of the trials that are not known
+  std::mutex mutex_;                           ///< of what follows
+  std::vector<std::optional<TrialResult>> found_;
+  std::set<std::size_t> running_;
+  std::size_t finished_ = 0;
+};
+
+}  // namespace
+
+Validation validate(const ValidateOptions& options, const ValidateHooks& hooks, const Validation& before) {
+  RunningTrials trials(options, hooks, before);
+  const bool complete = trials.run();
+  return {.options = options, .results = trials.results(), .complete = complete};
 }
 
 std::string group_of(const TrialResult& result) {
@@ -221,7 +287,7 @@ std::string summary_of(const Validation& validation) {
   const auto counted = [](std::size_t number, const char* thing) {
     return fmt::format("{} {}{}", number, thing, number == 1 ? "" : "s");
   };
-  return fmt::format("{} in {}, seed {}: {}; {:.0f} s", counted(validation.checks(), "check"),
+  return fmt::format("{} in {}, seed {}: {}; {:.0f} s of trials", counted(validation.checks(), "check"),
                      counted(validation.results.size(), "trial"), validation.options.seed,
                      failed == 0 ? "all hold" : fmt::format("{} FAIL", failed), seconds);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// carom validate: all trials, one after the other; what they found in words and in JSON.
+// carom validate: all trials, several at a time; what they found in words and in JSON.
 
 #include "studies/validate/check.hpp"
 #include "studies/validate/trial.hpp"
@@ -16,6 +16,7 @@ struct ValidateOptions {
   bool full = false;  ///< twenty times the collisions of a quick validation, and trials of its own
   std::uint64_t seed = 1;
   std::vector<std::string> only = {};  ///< names of trials and of groups; empty: all
+  int threads = 0;                     ///< number of trials that run at a time; 0: as many as there are processors
 };
 
 struct Validation {
@@ -28,8 +29,10 @@ struct Validation {
 };
 
 struct ValidateHooks {
-  /// Called with what is being done and the fraction of the trials that is done (0 to 1). Returning false stops the validation.
+  /// Called by the thread that called validate(), with what is being done and the fraction of the trials that is done (0 to 1).
+  /// Returning false stops the validation.
   std::function<bool(const std::string& doing, double fraction)> proceed = {};
+  /// Called when a trial has ended, by the thread that ran it, one call at a time.
   std::function<void(const TrialResult& result)> done = {};
 };
 
@@ -40,7 +43,8 @@ struct ValidateHooks {
 /// is no such trial and no such group.
 [[nodiscard]] std::vector<validation::Trial> chosen_trials(const ValidateOptions& options);
 
-/// Runs the trials that `before` does not hold already. A trial that cannot be run is one that fails.
+/// Runs the trials that `before` does not hold already. A trial that cannot be run is one that fails. What a trial finds does not
+/// depend on the number of threads.
 [[nodiscard]] Validation validate(const ValidateOptions& options, const ValidateHooks& hooks, const Validation& before = {});
 
 /// Returns the group of the trial whose results these are; an empty name where there is no such trial.
