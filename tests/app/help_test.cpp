@@ -132,6 +132,7 @@ TEST_F(HelpCommand, EveryExampleWorks) {
       if (const std::size_t hours = line.find("--walltime 2h"); hours != std::string::npos)
         line.replace(hours, 13, "--walltime 1s");
       if (line.starts_with("carom resume long")) line += " --walltime 1s";
+      if (line.starts_with("carom movie") && line.find("--size") == std::string::npos) line += " --size 160";
       const Outcome outcome = shell(line);
       const bool is_stopped = line.find("--walltime") != std::string::npos;
       const int expected = is_stopped ? 130 : command == "diff" ? 1 : 0;

@@ -133,7 +133,7 @@ TEST_F(RanksOfRunCommand, StopAtASignalAndAreSaved) {
 }
 
 TEST_F(RanksOfRunCommand, GoOnInOtherNumbersAfterOneWasKilled) {
-  const std::vector<std::string> longer = {"-q", "--set", "run.time=40.0"};
+  const std::vector<std::string> longer = {"-q", "--set", "run.time=20.0"};
   std::vector<std::string> saving = longer, alone = longer;
   saving.insert(saving.begin(), {"run", "gas.toml", "--out", "killed", "--checkpoint-every", "20000 collisions"});
   alone.insert(alone.end(), {"--threads", "1"});
@@ -155,13 +155,10 @@ TEST_F(RanksOfRunCommand, GoOnInOtherNumbersAfterOneWasKilled) {
                   HasSubstr("about to stop, and waiting for another process; should that have failed, and MPI end the run, "));
       EXPECT_THAT(killed.err, HasSubstr(" resume killed1 goes on from where it was saved last"));
     }
-    fs::copy(file(saving[3]), file(saving[3] + "-copy"), fs::copy_options::recursive);
-    const Outcome on_one = carom({"resume", saving[3], "-q", "--threads", "1"});
-    EXPECT_EQ(on_one.exit_code, 0) << on_one.err;
-    const Outcome on_three = mpirun("3", {"resume", saving[3] + "-copy", "-q"});
-    EXPECT_EQ(on_three.exit_code, 0) << on_three.err;
+    const Outcome resumed =
+        rank == 1 ? carom({"resume", saving[3], "-q", "--threads", "1"}) : mpirun("3", {"resume", saving[3], "-q"});
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
     expect_same_results("whole", saving[3]);
-    expect_same_results("whole", saving[3] + "-copy");
   }
 }
 
