@@ -32,7 +32,7 @@ double excess_mean_free_path(double gap, int collisions) {
 TEST(ObstacleFlights, LorentzGasHasTheMeanFreePathOfTheClosedForm) {
   EXPECT_NEAR(excess_mean_free_path(0.2, 3'000'000), 0.0, 2e-3);
 }
-TEST(PhysicsObstacles, LorentzGasHasTheMeanFreePathOfTheClosedForm) {
+TEST(SlowObstacles, LorentzGasHasTheMeanFreePathOfTheClosedForm) {
   EXPECT_NEAR(excess_mean_free_path(0.2, 10'000'000), 0.0, 1.1e-3);
   EXPECT_NEAR(excess_mean_free_path(0.3, 10'000'000), 0.0, 1.1e-3);
 }

@@ -48,7 +48,8 @@ void expect_jump(double depth) {
                                 (testing::Message() << jump / expected << " +- " << error / expected).GetString());
 }
 
-TEST(PhysicsSquareWell, TheJumpOfGAtTheEdgeIsTheBoltzmannFactor) {
+/// A well is a step of one energy: PhysicsSteppedPotential has the same of three edges.
+TEST(SlowSquareWell, TheJumpOfGAtTheEdgeIsTheBoltzmannFactor) {
   expect_jump(1.0);
   expect_jump(-0.5);
 }
