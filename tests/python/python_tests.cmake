@@ -18,7 +18,7 @@ function(carom_add_python_test name) # ARGUMENTS of the interpreter...
   else()
     add_test(NAME python.${name} COMMAND ${Python_EXECUTABLE} ${ARGN})
   endif()
-  set_tests_properties(python.${name} PROPERTIES LABELS python TIMEOUT 300 SKIP_REGULAR_EXPRESSION "^skipped: ")
+  set_tests_properties(python.${name} PROPERTIES LABELS python COST 10 TIMEOUT 300 SKIP_REGULAR_EXPRESSION "^skipped: ")
 endfunction()
 
 set(laid_out ${PROJECT_BINARY_DIR}/python)
@@ -34,4 +34,4 @@ set(configuration ${PROJECT_SOURCE_DIR}/pyproject.toml)
 carom_add_python_test(types -m mypy --strict --config-file ${configuration} --cache-dir ${PROJECT_BINARY_DIR}/mypy -p carom)
 set_tests_properties(python.types PROPERTIES ENVIRONMENT "PYTHONPATH=${laid_out};MYPYPATH=${laid_out}" WORKING_DIRECTORY ${laid_out})
 # More than a hundred programs, one after another: 21 s of processor time, and minutes where much else runs.
-set_tests_properties(python.commands PROPERTIES TIMEOUT 900)
+set_tests_properties(python.commands PROPERTIES COST 40 TIMEOUT 900)

@@ -30,7 +30,7 @@ else()
 endif()
 set_tests_properties(site.builds PROPERTIES FIXTURES_SETUP site)
 set_tests_properties(site.pages PROPERTIES FIXTURES_REQUIRED site)
-set_tests_properties(site.builds site.pages PROPERTIES LABELS site TIMEOUT 600 SKIP_REGULAR_EXPRESSION "^skipped: ")
+set_tests_properties(site.builds site.pages PROPERTIES LABELS site COST 60 TIMEOUT 600 SKIP_REGULAR_EXPRESSION "^skipped: ")
 
 if(site_skipped)
   add_test(NAME site.whole COMMAND ${CMAKE_COMMAND} -E echo "skipped: ${site_skipped}")
