@@ -16,7 +16,8 @@
 
 namespace carom {
 
-ObservableGroup::ObservableGroup(const ObservedRun& run) : run_(run), acting_(*run.acting), meter_(run.scene, run.disks) {
+ObservableGroup::ObservableGroup(const ObservedRun& run)
+    : run_(run), acting_(*run.acting), changes_(run.changes_made), meter_(run.scene, run.disks) {
   for (const ObservableRequest& request : run.scene.observe) add(make_observable(request, run_));
 }
 

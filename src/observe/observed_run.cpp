@@ -40,13 +40,14 @@ ObservedRun observed_run(const Simulation& simulation) {
       observed_run(scene, simulation.disks(),
                    bath ? *bath : kinetic_temperature(scene.box, scene.effects, simulation.disks(), simulation.state()));
   run.acting = &simulation.scene().effects;
+  run.changes_made = scene.changes.size() - simulation.scene().changes.size();
   run.has_collision_records = simulation.supports_collision_records();
   run.own_rule = simulation.has_collision_rule();
   return run;
 }
 
 ObservedRun observed_run(const Scene& scene, const Disks& disks, double temperature) {
-  ObservedRun run{scene, disks, &scene.effects, scene.run.time, temperature};
+  ObservedRun run{.scene = scene, .disks = disks, .acting = &scene.effects, .time = scene.run.time, .temperature = temperature};
   if (run.disks.count() > 0) run.mean_diameter = run.disks.mean_diameter();
   run.mean_free_time = mean_free_time(run);
   return run;

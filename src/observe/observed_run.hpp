@@ -5,6 +5,7 @@
 
 #include <carom/observe.hpp>
 
+#include <cstddef>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,7 @@ struct ObservedRun {
   const Scene& scene;
   const Disks& disks;
   const Effects* acting = nullptr;     ///< effects that act when observables are made; `scene` has those of all of its changes
+  std::size_t changes_made = 0;        ///< changes of the scene that were made before that
   std::optional<double> time = {};     ///< end of the run as planned when it began
   double temperature = 0.0;            ///< kT at the start, or of the bath
   double mean_diameter = 1.0;          ///< 1 without disks

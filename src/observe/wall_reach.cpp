@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <span>
 
 namespace carom {
 
@@ -77,7 +78,7 @@ Box reach_of_walls(const ObservedRun& run, const State& start) {
       if (walls[w]) walls[w]->go_on(acting.walls[w], time - now);
     now = time;
   };
-  for (const Change& change : run.scene.changes) {
+  for (const Change& change : std::span(run.scene.changes).subspan(run.changes_made)) {
     if (change.time >= end) break;
     go_on_until(change.time);
     acting = effects_after(acting, change);

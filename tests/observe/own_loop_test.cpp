@@ -11,6 +11,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
 #include <vector>
@@ -84,6 +87,25 @@ TEST(OwnLoop, BeginsAtTimeZero) {
   simulation.reset_clock();
   observation.sample(simulation);
   EXPECT_EQ(observation.next_sample(), 0.25);
+}
+
+/// Elastic disks lose no energy, which a change that was counted twice would show.
+TEST(OwnLoop, BegunAfterAChangeDoesNotMakeItAgain) {
+  Scene scene = observed_scene();
+  scene.effects.collision.restitution = 1.0;
+  scene.changes = {{1.0, ScaleVelocities{2.0}}, {2.0, ScaleVelocities{0.5}}};
+  scene.observe = {{.name = "fields", .every = 0.25, .cells = std::array<std::int64_t, 2>{2, 2}}};
+  Simulation simulation = make_simulation(scene);
+  simulation.run_until(1.5);
+  simulation.reset_clock();
+  Observation observation(simulation);
+  for (; observation.next_sample() <= 4.0; observation.sample(simulation)) simulation.run_until(observation.next_sample());
+  ASSERT_GT(simulation.totals().pair, 100U);
+  const Table in_time = observation.results().at(0).tables.at(1);
+  const auto lost = std::ranges::find(in_time.columns, "energy_lost", &Column::name);
+  ASSERT_NE(lost, in_time.columns.end());
+  EXPECT_GT(lost->values.size(), 10U);
+  for (const double one : lost->values) EXPECT_NEAR(one, 0.0, 1e-12);
 }
 
 TEST(OwnLoop, RefusesAStepThatWasPassedOver) {
