@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <cstdint>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -39,44 +41,66 @@ std::vector<Edge> edges_of(const std::vector<PotentialStep>& steps) {
   return edges;
 }
 
-/// The centres of neighbours at heights y and y' are at a = sqrt(w^2 - (y - y')^2) along the channel where their distance is w.
-/// At force p their distance x along the channel has the weight exp(-p x - u), which integrates to a sum over the edges of u, of
-/// jump exp(-p a) / p: one step of the transfer matrix.
+template <class Scalar>
+using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+
+/// One step of the transfer matrix. The centres of neighbours at heights y and y' are at a = sqrt(w^2 - (y - y')^2) along the
+/// channel where their distance is w. At force p their distance x along the channel has the weight exp(-p x - u), which
+/// integrates to a sum over the edges of u, of jump exp(-p a) / p. Here it is times p exp(p closest), so that nothing underflows.
+template <class Scalar>
+struct Step {
+  Matrix<Scalar> kernel;
+  Matrix<Scalar> apart, stretch, warmth;  ///< the kernel's terms times a; times (y - y')^2 / a; its derivative by temperature
+};
+
+/// Returns the least distance along the channel, for the range h of heights.
+double closest(double h) { return std::sqrt(1.0 - h * h); }
+
+/// Returns the step between functions of y that are even (parity 1) or odd (-1) about the middle: half of the nodes stand for
+/// all.
+template <class Scalar>
+Step<Scalar> step_at(Scalar p, double h, const std::vector<Edge>& edges, double parity) {
+  using Rule = boost::math::quadrature::gauss<double, 60>;
+  constexpr Eigen::Index half = 30;
+  const Matrix<Scalar> zero = Matrix<Scalar>::Zero(half, half);
+  Step<Scalar> step{zero, zero, zero, zero};
+  for (Eigen::Index i = 0; i < half; ++i)
+    for (Eigen::Index j = 0; j < half; ++j) {
+      const auto u = static_cast<std::size_t>(i), v = static_cast<std::size_t>(j);
+      for (const double side : {-1.0, 1.0}) {
+        const double sign = side < 0.0 ? 1.0 : parity;
+        const double weight = sign * 0.5 * h * std::sqrt(Rule::weights()[u] * Rule::weights()[v]);
+        const double dy = 0.5 * h * (Rule::abscissa()[u] + side * Rule::abscissa()[v]);
+        for (const Edge& edge : edges) {
+          const double a = std::sqrt(edge.width * edge.width - dy * dy);
+          const Scalar decay = weight * std::exp(-p * (a - closest(h))), k = edge.jump * decay;
+          step.kernel(i, j) += k;
+          step.apart(i, j) += k * a;
+          step.stretch(i, j) += k * (dy * dy / a);
+          step.warmth(i, j) -= edge.jump_by_inverse_temperature * decay;
+        }
+      }
+    }
+  return step;
+}
+
+/// What many disks have at one force.
 struct AtForce {
   double length;        ///< per disk: 1/p - d ln(lambda) / dp
   double log_by_range;  ///< d ln(lambda) / dh, h the range of y
   double energy;        ///< -d ln(lambda) / d beta, beta a factor of all energies
+  double largest;       ///< lambda, the largest eigenvalue of Step::kernel
 };
 
 AtForce at_force(double p, double h, const std::vector<Edge>& edges) {
-  using Rule = boost::math::quadrature::gauss<double, 60>;
-  constexpr Eigen::Index half = 30;
-  // The eigenvector of the largest eigenvalue is the same seen from either wall: half of the nodes stand for all.
-  const double closest = std::sqrt(1.0 - h * h);  // taken out of the exponent, so that nothing underflows
-  Eigen::MatrixXd kernel(half, half), apart(half, half), stretch(half, half), warmth(half, half);  // the latter times the kernel
-  for (Eigen::Index i = 0; i < half; ++i)
-    for (Eigen::Index j = 0; j < half; ++j) {
-      const auto u = static_cast<std::size_t>(i), v = static_cast<std::size_t>(j);
-      const double weight = 0.5 * h * std::sqrt(Rule::weights()[u] * Rule::weights()[v]);
-      kernel(i, j) = apart(i, j) = stretch(i, j) = warmth(i, j) = 0.0;
-      for (const double side : {-1.0, 1.0}) {
-        const double dy = 0.5 * h * (Rule::abscissa()[u] + side * Rule::abscissa()[v]);
-        for (const Edge& edge : edges) {
-          const double a = std::sqrt(edge.width * edge.width - dy * dy);
-          const double decay = weight * std::exp(-p * (a - closest)), k = edge.jump * decay;
-          kernel(i, j) += k;
-          apart(i, j) += k * a;
-          stretch(i, j) += k * dy * dy / a;
-          warmth(i, j) -= edge.jump_by_inverse_temperature * decay;
-        }
-      }
-    }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solved(kernel);
-  const Eigen::VectorXd state = solved.eigenvectors().col(half - 1);
-  const double largest = solved.eigenvalues()[half - 1];
+  // The eigenvector of the largest eigenvalue is the same seen from either wall.
+  const Step<double> step = step_at(p, h, edges, 1.0);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solved(step.kernel);
+  const Eigen::VectorXd state = solved.eigenvectors().rightCols(1);
+  const double largest = solved.eigenvalues().tail(1)[0];
   // First-order perturbation theory gives the derivatives of the eigenvalue; heights scale with h.
-  return {1.0 / p + state.dot(apart * state) / largest, (1.0 + p * state.dot(stretch * state) / largest) / h,
-          state.dot(warmth * state) / largest};
+  return {1.0 / p + state.dot(step.apart * state) / largest, (1.0 + p * state.dot(step.stretch * state) / largest) / h,
+          state.dot(step.warmth * state) / largest, largest};
 }
 
 /// The largest force for which 60 nodes resolve the density at the walls, to eight digits.
@@ -103,11 +127,15 @@ double force_at(double length, double h, const std::vector<Edge>& edges) {
   return 0.5 * (from + to);
 }
 
-/// Returns the correction of the free energy at fixed length to N times that at fixed force: the first term of its saddle point,
-/// -ln(-d length / d force) / 2.
-double saddle(double length, double h, const std::vector<Edge>& edges) {
-  const double p = force_at(length, h, edges), step = 1e-4 * p;
-  return -0.5 * std::log((at_force(p - step, h, edges).length - at_force(p + step, h, edges).length) / (2.0 * step));
+/// Returns the `exponent`th power of a matrix.
+template <class Scalar>
+Matrix<Scalar> power_of(Matrix<Scalar> base, std::int64_t exponent) {
+  Matrix<Scalar> power = Matrix<Scalar>::Identity(base.rows(), base.cols());
+  for (; exponent > 0; exponent /= 2) {
+    if (exponent % 2 == 1) power *= base;
+    base *= base;
+  }
+  return power;
 }
 
 void require_single_file(double width, double length, const std::vector<PotentialStep>& steps) {
@@ -137,21 +165,38 @@ SingleFile single_file(double width, double length, const std::vector<PotentialS
 }
 
 SingleFile single_file(double width, double length, std::int64_t disks, const std::vector<PotentialStep>& steps) {
-  SingleFile found = single_file(width, length, steps);
+  require_single_file(width, length, steps);
+  if (disks < 6) throw std::invalid_argument("the integral over the forces of a ring of disks needs six disks at least");
   const std::vector<Edge> edges = edges_of(steps);
-  const double h = width - 1.0, N = static_cast<double>(disks);
-  const double dl = 1e-3 * (length - std::sqrt(1.0 - h * h)), dh = 1e-3 * std::min(h, 0.5 * std::numbers::sqrt3 - h);
-  found.force += (1.0 / length + (saddle(length + dl, h, edges) - saddle(length - dl, h, edges)) / (2.0 * dl)) / N;
-  found.wall_pressure += (saddle(length, h + dh, edges) - saddle(length, h - dh, edges)) / (2.0 * dh) / (N * length);
-  if (steps.empty()) return found;
-  constexpr double db = 1e-3;
-  const auto at = [&](double factor) {
-    std::vector<PotentialStep> scaled = steps;
-    for (PotentialStep& step : scaled) step.energy *= factor;
-    return saddle(length, h, edges_of(scaled));
-  };
-  found.energy -= (at(1.0 + db) - at(1.0 - db)) / (2.0 * db) / N;
-  return found;
+  const double h = width - 1.0, N = static_cast<double>(disks), ring = N * length;
+  const double force = force_at(length, h, edges), largest = at_force(force, h, edges).largest;
+  const double dp = 1e-4 * force;
+  const double softness = (at_force(force - dp, h, edges).length - at_force(force + dp, h, edges).length) / (2.0 * dp);
+  // Sums over forces p + i s with equal steps of s are right but for rings that are 2 pi / step longer. These weigh nothing
+  // where that is many times by which N disks at force p vary in length.
+  const double spacing = 2.0 * std::numbers::pi / (24.0 * std::sqrt(N * softness));
+  double total = 0.0, sum_force = 0.0, sum_range = 0.0, sum_energy = 0.0, largest_term = 0.0;
+  for (std::int64_t k = 0, small = 0; small < 8; ++k) {
+    const std::complex<double> p(force, static_cast<double>(k) * spacing);
+    const std::complex<double> along = (k == 0 ? 0.5 : 1.0) * std::pow(force / p, disks) *
+                                       std::exp(std::complex<double>(0.0, p.imag() * (ring - N * closest(h))));
+    std::complex<double> term = 0.0, range = 0.0, energy = 0.0;
+    for (const double parity : {1.0, -1.0}) {
+      const Step<std::complex<double>> step = step_at(p, h, edges, parity);
+      const Matrix<std::complex<double>> others = power_of<std::complex<double>>(step.kernel / largest, disks - 1) / largest;
+      term += (others * step.kernel).trace();
+      range += p * (others * step.stretch).trace();
+      energy += (others * step.warmth).trace();
+    }
+    total += (along * term).real();
+    sum_force += (along * term * p).real();
+    sum_range += (along * (term + range)).real();
+    sum_energy += (along * energy).real();
+    const double size = std::abs(along * term * p);
+    largest_term = std::max(largest_term, size);
+    small = size < 1e-15 * largest_term ? small + 1 : 0;
+  }
+  return {sum_force / total + 1.0 / ring, sum_range / total / (h * length), sum_energy / total};
 }
 
 }  // namespace carom::theory

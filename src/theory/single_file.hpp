@@ -23,8 +23,9 @@ struct SingleFile {
 /// no more than their cores where the last width is at most 2 sqrt(1 - (width - 1)^2). Throws std::invalid_argument outside.
 [[nodiscard]] SingleFile single_file(double width, double length, const std::vector<PotentialStep>& steps = {});
 
-/// Forces for this number of disks in a channel that is periodic along its length, up to terms of 1/N^2: the length is fixed,
-/// where the transfer matrix fixes the force, which adds terms of 1/N. Requires disks > 0.
+/// Forces for this number of disks, 6 or more, in a channel that is periodic along its length. The length is fixed, where the
+/// transfer matrix fixes the force: an integral over complex forces leads from one to the other. Takes milliseconds for tens and
+/// hundreds of disks. Throws std::invalid_argument for fewer than 6.
 [[nodiscard]] SingleFile single_file(double width, double length, std::int64_t disks,
                                      const std::vector<PotentialStep>& steps = {});
 

@@ -240,6 +240,7 @@ TrialResult awkward_result() {
                    check(1e300, 2.0, 0.0, 0.0, Judged::shown)};
   result.checks[1].equivalent = 3.25;
   result.checks[0].reference_error = 0.1;
+  result.checks[0].measured.freedom = 7.0;
   result.checks[2].error_is_bound = true;
   result.curves = {{.plot = "p", .name = "measured | by us", .x = {1.0, nan}, .y = {2.0, -0.0}, .error = {}},
                    {.plot = "p", .name = "theory", .theory = true, .x = {0.1}, .y = {0.2}, .error = {0.3}}};
@@ -268,6 +269,7 @@ TEST(ValidationFiles, GiveBackWhatWasWritten) {
     EXPECT_EQ(a.allowance_for, b.allowance_for);
     EXPECT_EQ(a.reference_error, b.reference_error);
     EXPECT_EQ(a.error_is_bound, b.error_is_bound);
+    EXPECT_EQ(a.measured.freedom, b.measured.freedom);
     EXPECT_TRUE(same(a.expected, b.expected) && same(a.measured.value, b.measured.value) &&
                 same(a.measured.error, b.measured.error) && same(a.allowance, b.allowance));
     EXPECT_EQ(a.holds(), b.holds());
@@ -299,6 +301,28 @@ TEST(ValidationFiles, LeaveOutALineThatWasNotFinishedAndRefuseWhatIsNotTheirs) {
 TEST(ValidationFiles, KeyTellsSeedsAndModesApart) {
   std::set<std::string> keys = {validation_key({}), validation_key({.full = true}), validation_key({.seed = 2})};
   EXPECT_EQ(keys.size(), 3U);
+}
+
+TEST(ValidationCheck, OfFewValuesIsStudentsT) {
+  // Percentage points of t: Abramowitz & Stegun, table 26.10; of the normal distribution 1.959964 and 2.575829.
+  Check few = check(0.0, 2.262157, 1.0);
+  few.measured.freedom = 9.0;
+  EXPECT_NEAR(few.z(), 1.959964, 1e-6);
+  EXPECT_NEAR(few.deviation(), 1.959964, 1e-6);
+  few.measured = {-6.405e-3, 1e-3, 7.0};
+  few.allowance = 2.905541e-3;
+  EXPECT_NEAR(few.deviation(), -2.5758, 1e-3) << "3.499 standard errors beyond the allowance";
+  EXPECT_TRUE(few.fits());
+  few.measured.value = 1e9;
+  EXPECT_FALSE(few.fits());
+  few.measured = {0.0, 0.0, 7.0};
+  EXPECT_EQ(few.z(), 0.0);
+  // As large an error of the reference: the sum of both has four times the degrees of freedom.
+  few = check(0.0, 2.028094, std::sqrt(0.5));
+  few.measured.freedom = 9.0;
+  few.reference_error = std::sqrt(0.5);
+  EXPECT_NEAR(few.freedom(), 36.0, 1e-12);
+  EXPECT_NEAR(few.z(), 1.959964, 1e-6);
 }
 
 TEST(Validation, AGroupStandsForItsTrials) {

@@ -48,7 +48,69 @@ TEST(SingleFile, NearClosePackingHasTwoDegreesOfFreedomForEachDisk) {
 TEST(SingleFile, InAChannelWithoutRoomIsThatOfRodsForAnyNumberOfDisks) {
   // N rods on a ring of length N l have l (l - 1)^(N - 1) to be in: force 1 / N l + (1 - 1/N) / (l - 1), with no further terms.
   for (const double length : {1.2, 1.5, 3.0})
-    EXPECT_NEAR(single_file(1.001, length, 10).force, 0.1 / length + 0.9 / (length - 1.0), 2e-5 / (length - 1.0)) << length;
+    EXPECT_NEAR(single_file(1.001, length, 10).force, 0.1 / length + 0.9 / (length - 1.0), 2e-6 / (length - 1.0)) << length;
+}
+
+TEST(SingleFile, OfSixDisksIsTheIntegralOverTheirHeights) {
+  // Six disks on a ring leave L - sum a to be shared by six distances, in (L - sum a)^5 / 5! ways, if L is longer than six
+  // diameters, and the first may be anywhere on the ring: forces are slopes of the logarithm of the integral over six heights.
+  using Rule = boost::math::quadrature::gauss<double, 10>;
+  constexpr double h = 0.8;
+  std::vector<double> y, weights;
+  for (std::size_t k = 0; k < Rule::abscissa().size(); ++k)
+    for (const double side : {-0.5, 0.5}) y.push_back(side * Rule::abscissa()[k]), weights.push_back(0.5 * Rule::weights()[k]);
+  const auto log_of_volume = [&](double ring, double range) {
+    const std::size_t n = y.size();
+    std::vector<double> apart(n * n);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j) apart[i * n + j] = std::sqrt(1.0 - std::pow(range * (y[i] - y[j]), 2));
+    double sum = 0.0;
+    for (std::size_t a = 0; a < n; ++a)
+      for (std::size_t b = 0; b < n; ++b)
+        for (std::size_t c = 0; c < n; ++c)
+          for (std::size_t d = 0; d < n; ++d)
+            for (std::size_t e = 0; e < n; ++e)
+              for (std::size_t f = 0; f < n; ++f) {
+                const double free = ring - apart[a * n + b] - apart[b * n + c] - apart[c * n + d] - apart[d * n + e] -
+                                    apart[e * n + f] - apart[f * n + a];
+                sum += weights[a] * weights[b] * weights[c] * weights[d] * weights[e] * weights[f] * std::pow(free, 5);
+              }
+    return std::log(ring * std::pow(range, 6) * sum);
+  };
+  constexpr double length = 1.1, step = 1e-4;
+  const theory::SingleFile six = single_file(1.0 + h, length, 6);
+  EXPECT_NEAR(six.force, (log_of_volume(6.0 * length + step, h) - log_of_volume(6.0 * length - step, h)) / (2.0 * step), 1e-6);
+  EXPECT_NEAR(six.wall_pressure,
+              (log_of_volume(6.0 * length, h + step) - log_of_volume(6.0 * length, h - step)) / (2.0 * step) / (6.0 * length),
+              1e-6);
+}
+
+TEST(SingleFile, OfAFewDisksWithStepsHasForcesAndEnergyThatAreSlopesOfOneFreeEnergy) {
+  constexpr double h = 0.6, length = 1.1, step = 1e-4;
+  const std::vector<PotentialStep> two_steps = {{1.2, 0.9}, {1.59, -0.7}};
+  const auto at = [&](double l, double range, double beta) {
+    std::vector<PotentialStep> scaled = two_steps;
+    for (PotentialStep& one : scaled) one.energy *= beta;
+    return single_file(1.0 + range, l, 12, scaled);
+  };
+  const auto slope = [&](auto&& f) { return (f(step) - f(-step)) / (2.0 * step); };
+  EXPECT_NEAR(slope([&](double d) { return at(length, h + d, 1.0).force; }),
+              slope([&](double d) { return at(length + d, h, 1.0).wall_pressure * (length + d); }), 1e-5);
+  EXPECT_NEAR(slope([&](double d) { return at(length + d, h, 1.0).energy; }),
+              -slope([&](double d) { return at(length, h, 1.0 + d).force; }), 1e-5);
+  EXPECT_NEAR(slope([&](double d) { return at(length, h + d, 1.0).energy; }),
+              -slope([&](double d) { return at(length, h, 1.0 + d).wall_pressure * length; }), 1e-5);
+}
+
+TEST(SingleFile, OfManyDisksIsThatOfInfinitelyMany) {
+  // Corrections fall as 1/N.
+  for (const auto& potential : {std::vector<PotentialStep>{}, std::vector<PotentialStep>{{1.4, -0.5}}}) {
+    const theory::SingleFile infinite = single_file(1.6, 1.1, potential), many = single_file(1.6, 1.1, 500, potential),
+                             twice = single_file(1.6, 1.1, 1000, potential);
+    EXPECT_NEAR(2.0 * twice.force - many.force, infinite.force, 1e-4);
+    EXPECT_NEAR(2.0 * twice.wall_pressure - many.wall_pressure, infinite.wall_pressure, 1e-4);
+    EXPECT_NEAR(2.0 * twice.energy - many.energy, infinite.energy, 1e-5);
+  }
 }
 
 TEST(SingleFile, FirstTermInOneOverN) {
@@ -62,8 +124,8 @@ const std::vector<PotentialStep> steps = {{1.2, 0.9}, {1.59, -0.7}};
 
 TEST(SingleFile, OfStepsOfNoEnergyIsThatOfHardDisks) {
   const theory::SingleFile hard = single_file(1.6, 1.1, 50), same = single_file(1.6, 1.1, 50, {{1.2, 0.0}, {1.5, 0.0}});
-  EXPECT_EQ(same.force, hard.force);
-  EXPECT_EQ(same.wall_pressure, hard.wall_pressure);
+  EXPECT_NEAR(same.force, hard.force, 1e-12 * hard.force);
+  EXPECT_NEAR(same.wall_pressure, hard.wall_pressure, 1e-12 * hard.wall_pressure);
   EXPECT_EQ(same.energy, 0.0);
   const theory::SingleFile one = single_file(1.6, 1.1, {{1.4, -0.5}}), split = single_file(1.6, 1.1, {{1.2, -0.5}, {1.4, -0.5}});
   EXPECT_NEAR(split.force, one.force, 1e-12);
@@ -143,6 +205,7 @@ TEST(SingleFile, WhereDisksCanPassOrDoNotFitIsRefused) {
   EXPECT_THROW((void)single_file(1.8, 0.6001), std::invalid_argument) << "too close to be resolved";
   EXPECT_THROW((void)single_file(1.8, std::nan("")), std::invalid_argument);
   EXPECT_THROW((void)single_file(std::nan(""), 1.0), std::invalid_argument);
+  EXPECT_THROW((void)single_file(1.8, 1.0, 5), std::invalid_argument) << "too few disks";
 }
 
 }  // namespace

@@ -1,5 +1,8 @@
 #include "studies/validate/check.hpp"
 
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,17 +18,28 @@ double in_errors(double difference, double error) {
   return error > 0.0 ? difference / error : std::copysign(std::numeric_limits<double>::infinity(), difference);
 }
 
+/// Returns the normal deviate that chance exceeds as often as Student's t with these degrees of freedom exceeds `t`.
+double normal_for(double t, double freedom) {
+  if (!std::isfinite(t) || !std::isfinite(freedom)) return t;
+  const double beyond = cdf(complement(boost::math::students_t(freedom), std::abs(t)));
+  return beyond > 0.0 ? std::copysign(quantile(complement(boost::math::normal(), beyond)), t) : t;
+}
+
 }  // namespace
 
 double Check::error() const { return std::hypot(measured.error, reference_error); }
 
-double Check::z() const { return equivalent ? *equivalent : in_errors(measured.value - expected, error()); }
+double Check::freedom() const { return measured.freedom * std::pow(error() / measured.error, 4); }
+
+double Check::z() const {
+  return equivalent ? *equivalent : normal_for(in_errors(measured.value - expected, error()), freedom());
+}
 
 double Check::deviation() const {
   if (equivalent) return *equivalent;
   const double difference = measured.value - expected;
   if (std::isnan(difference)) return in_errors(difference, error());
-  return in_errors(std::copysign(std::max(0.0, std::abs(difference) - allowance), difference), error());
+  return normal_for(in_errors(std::copysign(std::max(0.0, std::abs(difference) - allowance), difference), error()), freedom());
 }
 
 bool Check::fits() const { return std::abs(deviation()) <= 5.0; }

@@ -1,6 +1,7 @@
 #pragma once
 // One statement of theory or of the literature, what was measured, and whether the two agree.
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,8 @@ namespace carom {
 struct Measured {
   double value = 0.0;
   double error = 0.0;
+  /// Degrees of freedom of `error`: one less than the number of values whose scatter it is. Infinite where that is large.
+  double freedom = std::numeric_limits<double>::infinity();
 };
 
 /// The purpose of a check.
@@ -39,8 +42,11 @@ struct Check {
 
   /// Returns the standard error of measured - expected: that of both.
   [[nodiscard]] double error() const;
+  /// Returns the degrees of freedom of error() (Welch 1947, Satterthwaite 1946), where the reference's error is well known.
+  [[nodiscard]] double freedom() const;
   /// Returns (measured - expected) / error(), without any allowance; infinite where they differ and there is no error, or where
-  /// one of them is no number. Of a calibrated measurement against an exact theory this is a normal variable of variance 1.
+  /// one of them is no number. An error of few degrees of freedom makes it Student's t, and this returns the normal deviate of
+  /// the same probability. Of a calibrated measurement against an exact theory this is a normal variable of variance 1.
   [[nodiscard]] double z() const;
   /// Returns the deviation beyond the allowance, in standard errors, with the sign of z(); the verdict depends on it.
   [[nodiscard]] double deviation() const;

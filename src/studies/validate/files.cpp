@@ -60,6 +60,7 @@ Json json_of(const Check& check) {
                {"fits", check.fits()},
                {"holds", check.holds()}};
   if (check.equivalent) json["equivalent"] = number(*check.equivalent);
+  if (std::isfinite(check.measured.freedom)) json["freedom"] = check.measured.freedom;
   if (check.largest_error > 0.0) json["largest_error"] = check.largest_error;
   return json;
 }
@@ -76,6 +77,7 @@ Check check_of(const Json& json) {
               .error_is_bound = json.at("error_is_bound")};
   if (json.contains("equivalent"))
     check.equivalent = json["equivalent"].is_null() ? std::numeric_limits<double>::infinity() : json["equivalent"].get<double>();
+  check.measured.freedom = json.value("freedom", check.measured.freedom);
   check.largest_error = json.value("largest_error", 0.0);
   const std::string judged = json.at("judged");
   for (const auto& [value, word] : judgements)

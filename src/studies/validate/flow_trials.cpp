@@ -1,10 +1,8 @@
 // Steady flows between thermal walls: what the balances of momentum and energy leave no choice in.
 
 #include "studies/validate/gas.hpp"
-#include "theory/goodness_of_fit.hpp"
 
 #include <fmt/format.h>
-#include <boost/math/distributions/students_t.hpp>
 
 #include <cmath>
 #include <utility>
@@ -35,13 +33,6 @@ class FlowBeginning final : public Observable {
   double length_;
   FlowBalance& begun_;
 };
-
-/// A deviation from 0 in standard errors of a normal variable, of a mean over so few values.
-double normal_deviation(const Measured& mean, std::size_t values) {
-  const boost::math::students_t_distribution<double> student(static_cast<double>(values - 1));
-  const double t = mean.value / mean.error, p = 2.0 * boost::math::cdf(boost::math::complement(student, std::abs(t)));
-  return p > 0.0 ? std::copysign(theory::standard_errors(std::min(p, 1.0)), t) : std::copysign(40.0, t);
-}
 
 constexpr std::int64_t flow_disks = 200, flow_layers = 10;
 constexpr double flow_width = 20.0;
@@ -101,8 +92,7 @@ TrialResult flow(const std::string& trial, const std::string& what, double wall_
                                .theory = "1, the same at every height of a steady flow",
                                .source = "balance of momentum",
                                .expected = 1.0,
-                               .measured = {1.0 + mean.value, mean.error},
-                               .equivalent = normal_deviation(mean, layers[k].size()),
+                               .measured = {1.0 + mean.value, mean.error, mean.freedom},
                                .largest_error = effort.full ? largest_error : 0.0});
     }
     return measured;

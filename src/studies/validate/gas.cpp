@@ -120,7 +120,7 @@ Measured mean_of(const std::vector<double>& values) {
   double mean = 0.0, squares = 0.0;
   for (const double value : values) mean += value / n;
   for (const double value : values) squares += (value - mean) * (value - mean);
-  return {mean, std::sqrt(squares / (n * (n - 1.0)))};
+  return {mean, std::sqrt(squares / (n * (n - 1.0))), n - 1.0};
 }
 
 }  // namespace carom::validation

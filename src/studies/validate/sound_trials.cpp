@@ -70,7 +70,7 @@ TrialResult sound(const std::string& trial, double eta, const Effort& effort) {
   const double frequency = n * fit.frequency - (n - 1.0) * others.value, error = (n - 1.0) * others.error;
 
   const double speed = theory::sound_speed(eta), slower = wave.imag() / (speed * k);
-  const Measured measured{frequency / (k * slower), error / (k * slower)};
+  const Measured measured{frequency / (k * slower), error / (k * slower), others.freedom};
   result.checks.push_back(
       {.name = fmt::format("speed of sound at packing fraction {:.1f}, {} disks", eta, disks),
        .theory = "sqrt(Z + eta Z' + Z^2) v_T",
