@@ -69,7 +69,8 @@ TEST_F(ThreadsOfRun, MayBeOthersWhereARunGoesOn) {
     int code = run(out, {"-q", "--threads", numbers.front(), "--walltime", "0.05s"}).exit_code;
     std::size_t part = 0;
     for (; code == 130 && part < 100; ++part)
-      code = carom({"resume", out, "-q", "--threads", numbers[1 + part % 2], "--walltime", "0.05s"}).exit_code;
+      code = carom({"resume", out, "-q", "--threads", numbers[1 + part % 2], "--walltime", std::to_string(1 + part / 2) + "e-1s"})
+                 .exit_code;
     EXPECT_EQ(code, 0) << out;
     EXPECT_GT(part, 0U) << "the run was over before it could be stopped";
     expect_same_results("whole", out);
