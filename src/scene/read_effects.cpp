@@ -69,9 +69,10 @@ void read_numbers(const toml::table& node, const EffectTraits& effect, Effects& 
   for (const EffectNumber& number : effect.numbers) keys.push_back(number.key->name);
   keys.insert(keys.end(), effect.other_keys.begin(), effect.other_keys.end());
   const TableReader table(node, std::string(effect.name), keys);
-  for (const EffectNumber& number : effect.numbers) number.set(effects, table.required_number(*number.key));
-  if (effect.name == "non_additivity")
-    if (const toml::node* pairs = table.find("pairs")) read_pairs(*pairs, *effects.non_additivity);
+  const toml::node* pairs = effect.name == "non_additivity" ? table.find("pairs") : nullptr;
+  for (const EffectNumber& number : effect.numbers)
+    number.set(effects, pairs == nullptr ? table.required_number(*number.key) : table.number(*number.key).value_or(0.0));
+  if (pairs != nullptr) read_pairs(*pairs, *effects.non_additivity);
   if (std::ranges::find(effect.other_keys, "until") == effect.other_keys.end()) return;
   if (const toml::table* until = table.table("until", "{ packing_fraction = 0.84 }")) read_end(*until, *effects.growth);
 }

@@ -165,6 +165,14 @@ TEST(EffectSpellings, AThermostatHasATemperatureAndARate) {
   EXPECT_EQ(thermostat.rate, 0.5);
 }
 
+TEST(EffectSpellings, PairsOfSpeciesNeedNoDeltaOfAll) {
+  const std::string second = "[[disks]]\ncount = 2\nradius = 0.25\nmass = 1.0\npositions = \"random\"\nvelocities = \"rest\"\n";
+  const Scene scene = with(second + "[non_additivity]\npairs = [{ species = [0, 1], delta = -0.2 }]\n");
+  ASSERT_TRUE(scene.effects.non_additivity);
+  EXPECT_EQ(scene.effects.non_additivity->delta, 0.0);
+  EXPECT_EQ(scene.effects.non_additivity->between(0, 1), -0.2);
+}
+
 TEST(EffectSpellings, ShearMayRunEitherWay) {
   EXPECT_EQ(periodic_with("[shear]\nrate = -0.05\n[thermostat]\ntemperature = 1\nrate = 0.1\n").effects.shear->rate, -0.05);
 }
