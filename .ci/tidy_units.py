@@ -5,9 +5,10 @@
     tidy_units.py --alone BUILD_DIR UNIT...
 
 Reads BUILD_DIR/compile_commands.json. Writes into BUILD_DIR/together units, each of which includes many files, and a
-compile_commands.json of theirs; of files whose path matches PATTERN alone, where it is given. Files of the product share
-a unit, unless they give one name to two things. Tests are copied, each into a namespace of its own. With --alone, takes units
-apart that do not compile: a name of one file can still hide another one, which no other part of the build would notice.
+compile_commands.json of theirs; of files whose path matches PATTERN alone, where it is given. A file of the product that
+gives a name to something else than the files before it, or than a header, is copied with that name changed. Tests are copied,
+each into a namespace of its own. With --alone, takes units apart that do not compile: a name of one file can still hide
+another one, which no other part of the build would notice.
 """
 import json
 import re
@@ -18,15 +19,17 @@ from pathlib import Path
 
 # Made of the same headers as what is looked at, or written by the build.
 LEFT_OUT = re.compile(r"_avx|_texts\.cpp|build_info|lean_reversal|make_mixed|textbook_(float|quad)")
-# These instantiate whole engines.
+# These instantiate whole engines; and these are short and include headers that hold one of them at a time.
 ENGINE = re.compile(r"/(fixed_step|lean_\w+|make_\w+|textbook_\w+)\.cpp$")
-# So many units at least, of about one size, for as many processors.
-UNITS = {"product": 6, "tests": 4}
+KERNEL = "/kernels/"
+# So many units at least, of about one size, for as many processors. Larger ones take longer than their parts.
+UNITS = {"product": 8, "tests": 4}
 
 # What a file defines in its anonymous namespaces, as its layout tells; and its macros.
 ALIAS = re.compile(r"(?:template\s*<.*>\s*)?using\s+(\w+)\s*=.*")
 TYPE = re.compile(r"(?:template\s*<.*>\s*)?(?:struct|class|enum class|enum|union|concept)\s+(\w+)\b(?!::)")
 TYPE_OF_HEADER = r"^(?:template\s*<.*>\s*)?(?:struct|class|enum class|using)(?: alignas\(\w+\))? (\w+)"
+FUNCTION_OF_HEADER = r"^(?!using|return|namespace|struct|class|enum|#)[\w\[][^=;(){]*[\s&*>](\w+)\("
 TAKEN = re.compile(r"using\s+[\w:]*::(\w+);")
 OTHER = re.compile(r"(?!using|return|namespace|static_assert|struct|class|enum|[A-Z_]+\()[^=({;]*?(?<![:\w])(\w+)\s*[(={;\[]")
 MACRO = re.compile(r"#define\s+(\w+)")
@@ -70,8 +73,9 @@ class Unit:
     def __init__(self):
         self.files, self.names, self.flags, self.bytes = [], {}, [], 0
 
-    def takes(self, names):
-        return all(self.names.get(name, meaning) == meaning for name, meaning in names.items())
+    def taken(self, names):
+        """Returns the names that files of this unit give to something else."""
+        return {name for name, meaning in names.items() if self.names.get(name, meaning) != meaning}
 
     def add(self, path, names, flags):
         self.files.append(path)
@@ -84,16 +88,43 @@ class Unit:
         file.write_text("".join(f'#define main main_{k}\n#include "{path}"\n#undef main\n' for k, path in enumerate(self.files)))
 
 
+def copied(path, source, together, change):
+    """Returns a copy of a file whose text is what change(text, name) makes of it, where name is a name that no other file has."""
+    copy = together / path.relative_to(source)
+    copy.parent.mkdir(parents=True, exist_ok=True)
+    name = re.sub(r"\W", "_", str(path.relative_to(source)))
+    copy.write_text(change(path.read_text(), name).replace('"../../', f'"{source}/'))
+    return copy
+
+
 def apart(path, source, together):
     """Returns a copy of a test whose names are its own: all that tests define is in anonymous namespaces."""
     if not path.name.endswith("_test.cpp"):
         return path
-    copy = together / path.relative_to(source)
-    copy.parent.mkdir(parents=True, exist_ok=True)
-    name = re.sub(r"\W", "_", str(path.relative_to(source)))
-    text = path.read_text().replace("\nnamespace {\n", f"\nnamespace {name} {{\n")
-    copy.write_text(text.replace('"../../', f'"{source}/'))
-    return copy
+    return copied(path, source, together, lambda text, name: text.replace("\nnamespace {\n", f"\nnamespace {name} {{\n"))
+
+
+def included_by(path, source, seen=None):
+    """Returns the headers of this project that a file includes, and those that these include."""
+    seen = set() if seen is None else seen
+    for name in re.findall(r'^#include ["<](.*)[">]', path.read_text(), re.M):
+        for header in (source / "src" / name, source / "include" / name, path.parent / name):
+            if header.suffix == ".hpp" and header not in seen and header.is_file():
+                seen.add(header)
+                included_by(header, source, seen)
+    return seen
+
+
+def can_change(path, name):
+    """Whether a name is used for nothing else in this file: for no member, and for nothing of another namespace."""
+    return not re.search(rf"(\.|->|::){name}\b|#define\s+{name}\b", path.read_text())
+
+
+def renamed(path, names, source, together):
+    """Returns a copy of a file in which some names are its own."""
+    word = re.compile(rf"\b({'|'.join(sorted(names))})\b")
+    line = re.compile(r"^(?!#include).*$", re.M)
+    return copied(path, source, together, lambda text, name: line.sub(lambda found: word.sub(rf"\1_of_{name}", found[0]), text))
 
 
 def take_apart(together, units):
@@ -123,6 +154,8 @@ def main():
     units, seen = {kind: [Unit() for _ in range(count)] for kind, count in UNITS.items()}, set()
     headers = [header for folder in ("include", "src", "bench") for header in (source / folder).rglob("*.hpp")]
     of_headers = {match[1] for header in headers for match in re.finditer(TYPE_OF_HEADER, header.read_text(), re.M)}
+    functions_of_headers = {header: set(re.findall(FUNCTION_OF_HEADER, header.read_text(), re.M)) for header in headers}
+    functions = set().union(*functions_of_headers.values())
     entries = json.loads((build / "compile_commands.json").read_text())
     # make_fast.cpp, which says that engines are instantiated elsewhere, has to come before what instantiates them.
     for entry in sorted(entries, key=lambda entry: "/make_" not in entry["file"]):
@@ -133,14 +166,24 @@ def main():
         if path.is_relative_to(source / "tests"):
             kind, names, path = "tests", {}, apart(path, source, together)
         else:
-            kind, names = "product_engines" if ENGINE.search(str(path)) else "product", names_of(path)
-            if any(name in of_headers for name, meaning in names.items() if meaning == path):  # it would hide the other one
-                kind = f"product_{path.parent.name}"
-        free = [unit for unit in units.setdefault(kind, []) if unit.takes(names)]
+            kind = "product_engines" if ENGINE.search(str(path)) else "product_kernels" if KERNEL in str(path) else "product"
+            names = names_of(path)
+        overloaded = set()
+        if not functions.isdisjoint(names):
+            overloaded = set().union(*(functions_of_headers.get(header, ()) for header in included_by(path, source)))
+        hidden = {name for name, meaning in names.items() if meaning == path and name in of_headers | (functions - overloaded)}
+        fixed = {name for name in names if name in overloaded or not can_change(path, name)}
+        if hidden & fixed & of_headers:  # the type of a header would be hidden
+            kind = f"product_{path.parent.name}"
+        free = [unit for unit in units.setdefault(kind, []) if not unit.taken(names) & fixed]
         if not free:
             free = [Unit()]
             units[kind] += free
-        min(free, key=lambda unit: unit.bytes).add(path, names, flags_of(entry))
+        unit = min(free, key=lambda unit: unit.bytes)
+        if changed := unit.taken(names) | (hidden - fixed):
+            path = renamed(path, changed, source, together)
+            names = {name: meaning for name, meaning in names.items() if name not in changed}
+        unit.add(path, names, flags_of(entry))
 
     database = []
     for name, of_kind in units.items():
@@ -150,7 +193,7 @@ def main():
                 unit.write(file)
                 words = [word for flag in unit.flags for word in flag]
                 database.append({"directory": str(build), "file": str(file), "arguments": ["clang++", *words, "-c", str(file)]})
-    database.sort(key=lambda entry: "engines" not in entry["file"])  # what takes longest comes first
+    database.sort(key=lambda entry: ("engines" not in entry["file"], "tests_" not in entry["file"]))  # what takes longest comes first
     (together / "compile_commands.json").write_text(json.dumps(database, indent=1))
 
 
