@@ -1,6 +1,7 @@
 #pragma once
 // The state of an engine between events, its archive, and changes from outside.
 
+#include "effects/redraws.hpp"
 #include "engine/engine.hpp"
 
 #include <cmath>
@@ -76,7 +77,11 @@ Eigen::Vector2d Engine<Impact, Layout, World>::velocity(std::int32_t disk) {
 
 template <class Impact, class Layout, class World>
 double Engine<Impact, Layout, World>::set_velocity(std::int32_t disk, const Eigen::Vector2d& v, double spin) {
-  const std::int32_t i = slot_of(disk);
+  return this->give_velocity(slot_of(disk), v, spin);
+}
+
+template <class Impact, class Layout, class World>
+double EventLoop<Impact, Layout, World>::give_velocity(std::int32_t i, const Vec2<double>& v, double spin) {
   const double mass = layout_.mass(line(i));
   Vec2<double> to = v;  // NOLINT(performance-unnecessary-copy-initialization): in some worlds it changes
   if constexpr (!World::plain)
@@ -90,6 +95,16 @@ double Engine<Impact, Layout, World>::set_velocity(std::int32_t disk, const Eige
     }
   change_velocity(i, to);
   return gained;
+}
+
+template <class Impact, class Layout, class World>
+double EventLoop<Impact, Layout, World>::redraw(std::int32_t i, const Redraws& redraws, const Redraw& redraw) {
+  const Line& a = line(i);
+  const double mass = layout_.mass(a);
+  double spin = 0.0;
+  if constexpr (!Impact::plain)
+    if (impact_.spinning()) spin = redraws.spin(redraw, impact_.spin(i), mass, layout_.radius(a), epoch_.plus(now_));
+  return give_velocity(i, redraws.velocity(redraw, flight_.velocity(a, now_), mass), spin);
 }
 
 template <class Impact, class Layout, class World>

@@ -24,6 +24,8 @@
 
 namespace carom {
 
+class Redraws;
+struct Redraw;
 template <class Impact, class Layout, class World>
 class BoxDomain;
 template <class Impact, class Layout, class World>
@@ -174,6 +176,12 @@ class EventLoop : public LoopState<Impact, Layout, World> {
     if (stamp_ == last_stamp) [[unlikely]]
       begin_epoch(now_);
   }
+
+  /// Gives disk i the velocity v, in a sheared box relative to the flow, and where disks spin that spin, from now on. Returns the
+  /// energy that it gained.
+  double give_velocity(std::int32_t i, const Vec2<double>& v, double spin);
+  /// Redraws the velocity of disk i, from now on. Returns the energy that it gained.
+  double redraw(std::int32_t i, const Redraws& redraws, const Redraw& redraw);
 
   /// Gives a disk that leaves its neighbourhood a new one round where it is, and predicts it against the disks that come within
   /// reach. What it has planned with others stays as it is.

@@ -10,9 +10,14 @@
 // checked after every window, by comparing each copy with what its home says, and the hash of all events of the disk with it: a
 // difference near home makes the window void (parallel/domains.hpp).
 //
+// Velocities that are redrawn (effects/redraws.hpp) are those of a list that all domains have: each redraws the disks that it
+// holds, at home and in its halo, between its own events.
+//
 // The disks have slots in the order in which they came. A disk that has left keeps its slot, empty, as long as plans name it as
 // their partner: such plans are stale, and made anew when their time comes.
 
+#include "core/exact_sum.hpp"
+#include "effects/redraws.hpp"
 #include "engine/event_loop.hpp"
 #include "parallel/box_parts.hpp"
 #include "parallel/disk_message.hpp"
@@ -53,13 +58,24 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   /// of the whole box.
   BoxDomain(const Loop& whole, const BoxParts& parts, std::size_t me, double reach);
 
-  /// Processes all events up to and including `end`, a time since the epoch. A domain stops before that at an event that concerns
-  /// the whole box: see stopped().
-  void run(double end) {
+  /// Takes the redraws of the window that begins, in their order. Both must last until it ends.
+  void begin_window(const Redraws& redraws, std::span<const Redraw> due) { redraws_ = &redraws, due_ = due, redrawn_ = 0; }
+  /// Processes all events up to and including `end`, a time since the epoch, and makes the redraws of the window up to then, but
+  /// only so many of them. A domain stops before that at an event that concerns the whole box: see stopped().
+  void run(double end, std::size_t redraws) {
+    while (redrawn_ < redraws && time_of_redraw() <= end) {
+      if (const double time = time_of_redraw(); slot_of_redraw() >= 0 || redraw_is_of_many())
+        while (run_next(time)) {
+        }
+      redraw_next();
+      if (stopped()) return;
+    }
     while (run_next(end)) {
     }
     if (!stopped_) now_ = std::max(now_, end);
   }
+  /// Makes all redraws of the next event of this kind. Requires its time to have come.
+  void redraw_next();
   /// Processes the next event, unless it comes after `end`: then returns false.
   bool run_next(double end);
   /// The time of the next event.
@@ -150,6 +166,8 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   [[nodiscard]] double read_at_home() const { return sizes_.reach + 2.0 * lists_.half_width(); }
   /// The number of disks at home.
   [[nodiscard]] std::size_t homes() const { return homes_; }
+  /// Returns the energy that disks at home have gained by redraws since the last call.
+  [[nodiscard]] ExactSum take_redraw_energy() { return std::exchange(redraw_energy_, ExactSum{}); }
   /// The events processed since the last call, of disks at home and of copies.
   [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> take_events_done() {
     return {std::exchange(events_, 0), std::exchange(copied_events_, 0)};
@@ -183,6 +201,12 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
     history ^= history >> 29;
   }
 
+  [[nodiscard]] double time_of_redraw() const { return due_[redrawn_].time.since<double>(epoch_); }
+  /// The slot of the disk that is redrawn next; -1 where it is in no slot.
+  [[nodiscard]] std::int32_t slot_of_redraw() const { return slot_of_.find(due_[redrawn_].event.disk); }
+  [[nodiscard]] bool redraw_is_of_many() const {
+    return redrawn_ + 1 < due_.size() && due_[redrawn_ + 1].number == due_[redrawn_].number;
+  }
   [[gnu::noinline]] void prefetch_span(std::int64_t span) const;
   [[gnu::noinline]] void step_copy(std::int32_t i, double time);
   std::int32_t slot_for(std::int32_t disk);
@@ -229,6 +253,10 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   RunningTotals ghosts_;                          ///< counts of the events of copies
   std::uint64_t events_ = 0, copied_events_ = 0;  ///< in this window
   std::uint64_t most_events_ = 0;                 ///< of a window
+  const Redraws* redraws_ = nullptr;
+  std::span<const Redraw> due_;  ///< the redraws of this window
+  std::size_t redrawn_ = 0;      ///< of these
+  ExactSum redraw_energy_;       ///< gained by disks at home
 };
 
 }  // namespace carom

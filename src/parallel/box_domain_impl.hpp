@@ -145,6 +145,22 @@ bool BoxDomain<Impact, Layout, World>::run_next(double end) {
 }
 
 template <class Impact, class Layout, class World>
+void BoxDomain<Impact, Layout, World>::redraw_next() {
+  const double time = time_of_redraw();
+  for (const std::uint64_t number = due_[redrawn_].number;
+       !stopped() && redrawn_ < due_.size() && due_[redrawn_].number == number; ++redrawn_) {
+    const std::int32_t i = slot_of_redraw();
+    if (i < 0 || empty(i)) continue;
+    now_ = std::max(now_, time);
+    const bool at_home = mark(i).role == Role::home;
+    ++(at_home ? events_ : copied_events_);
+    const double gained = this->redraw(i, *redraws_, due_[redrawn_]);
+    remember(i, time);
+    if (at_home) redraw_energy_.add(gained);
+  }
+}
+
+template <class Impact, class Layout, class World>
 void BoxDomain<Impact, Layout, World>::record(bool collisions, bool events, std::span<const std::int32_t> slot_of_id) {
   CollisionListener listener;
   if (collisions)

@@ -8,6 +8,9 @@
 // engine keeps, and the whole engine alone goes on from there to the next epoch. So it does with everything that does not fit:
 // an exact number of collisions, and disks that become too fast for an epoch.
 //
+// Velocities that are redrawn between events (effects/redraws.hpp) are drawn once for each window and rank, and every domain
+// makes those of its disks. The redraws go back with a window that is void, and the whole engine makes them where it is alone.
+//
 // Domains may also be spread over processes, the ranks (carom/ranks.hpp). Rank 0 has the whole engine, and each other rank one of
 // its own, made for the same scene, that holds no more than what its domains have stored. Where threads meet, so do ranks: each
 // tells rank 0 the facts about its domains, rank 0 decides, and tells all. No other rank decides anything, so that none can come
@@ -15,6 +18,7 @@
 
 #include "core/archive.hpp"
 #include "core/seconds.hpp"
+#include "effects/redraws.hpp"
 #include "engine/engine.hpp"
 #include "parallel/box_domain_impl.hpp"
 #include "parallel/box_parts.hpp"
@@ -50,8 +54,10 @@ class Domains {
   using Part = BoxDomain<Impact, Layout, World>;
 
  public:
-  /// `whole` and `ranks` must outlive this, and `whole` is to be used through this alone. All ranks make equal domains.
-  Domains(Whole& whole, const Threads& threads, Ranks* ranks = nullptr);
+  /// `whole`, `ranks` and `redraws` must outlive this, and `whole` is to be used through this alone. All ranks make equal
+  /// domains. `redraws`: those of the scene, which run_until() makes as far as they are due by its target; null where there are
+  /// none.
+  Domains(Whole& whole, const Threads& threads, Ranks* ranks = nullptr, Redraws* redraws = nullptr);
   Domains(const Domains&) = delete;
   Domains& operator=(const Domains&) = delete;
   ~Domains();  ///< lets serve() return on the other ranks
@@ -123,6 +129,10 @@ class Domains {
     FlightLimits limits;
     std::array<std::int64_t, 2> fallen{};
     std::optional<double> factor;
+    Instant epoch, end;               ///< of the run
+    Instant redraw_time, redraw_end;  ///< of the next event of the redraws, the number of which follows, and Redraws::end()
+    std::uint64_t redraw_number = 0;
+    bool window_begins = false;
     Next next = Next::window;
     bool counting = false, stepping = false, lists_change = false, plans_change = false, has_fallen = false;
   };
@@ -135,6 +145,7 @@ class Domains {
     bool blocked = false;  ///< the event that was chosen last cannot happen in a domain alone
 
     static constexpr std::uint64_t none = ~std::uint64_t{0};
+    static constexpr std::uint64_t redraw = none - 1;  ///< in the place of a domain: in all of them
   };
 
   [[nodiscard]] bool first() const { return ranks_ == nullptr || ranks_->rank() == 0; }
@@ -180,6 +191,20 @@ class Domains {
   void run_window(std::size_t thread);
   void run_epoch(std::size_t thread);
   void begin_window();
+  void draw_redraws();
+  void count_redraws();
+  [[nodiscard]] double time_of(const Redraw& redraw) const { return redraw.time.template since<double>(whole_.epoch_); }
+  bool run_alone(const Instant& until, std::uint64_t pair_limit, std::uint64_t event_limit);
+  void redraw_alone();
+  /// Finds out where the whole engine has each disk.
+  void number_slots();
+  /// Keeps what redraws are to go back to with the disks that the whole engine has.
+  void keep_redraws() {
+    if (redraws_ != nullptr) kept_redraws_ = *redraws_;
+  }
+  void restore_redraws() {
+    if (redraws_ != nullptr) *redraws_ = *kept_redraws_;
+  }
   void read_messages(std::size_t d);
   void count_collisions();
   void step_to_limit();
@@ -267,6 +292,7 @@ class Domains {
   Whole& engine_;
   Threads threads_;
   Ranks* ranks_;                 ///< null: there is no other
+  Redraws* redraws_;             ///< null: there are none
   std::size_t begin_ = 0;        ///< the domains of this rank: from here
   std::size_t end_of_here_ = 0;  ///< up to and without this one
   Team team_;
@@ -302,6 +328,11 @@ class Domains {
   double shortest_window_ = 0.0;
   double window_end_ = 0.0;
   Instant end_;                                     ///< of the run
+  std::optional<Redraws> kept_redraws_;             ///< as they were in the last state known to be right
+  std::vector<Redraw> due_;                         ///< redraws of this window, in their order
+  std::size_t most_redraws_ = 0;                    ///< of them that happen: all, if the limit of collisions does not come before
+  std::vector<ExactSum> redraw_energies_;           ///< by domain: gained in this window
+  bool window_begins_ = false;                      ///< and other ranks do not know it yet
   double target_ = 0.0;                             ///< the same since the epoch
   double fastest_ = 0.0;                            ///< more than any speed in this epoch, as good as surely
   std::uint64_t pair_limit_ = 0, event_limit_ = 0;  ///< of counts()

@@ -7,11 +7,12 @@
 namespace carom {
 
 template <class Impact, class Layout, class World>
-Domains<Impact, Layout, World>::Domains(Whole& whole, const Threads& threads, Ranks* ranks)
+Domains<Impact, Layout, World>::Domains(Whole& whole, const Threads& threads, Ranks* ranks, Redraws* redraws)
     : whole_(whole),
       engine_(whole),
       threads_(threads),
       ranks_(ranks != nullptr && ranks->size() > 1 ? ranks : nullptr),
+      redraws_(redraws),
       team_(std::min(threads.threads, (threads.domains + rank_count() - 1) / rank_count())),
       slot_of_id_(whole.disk_count()),
       centres_(whole.disk_count()),
@@ -31,17 +32,21 @@ bool Domains<Impact, Layout, World>::run_until(const Instant& target, std::uint6
                                                bool exact_events) {
   constexpr auto no_limit = std::numeric_limits<std::uint64_t>::max();
   const std::uint64_t told = detail::all_events(counts());
+  const bool exact = exact_events && event_limit < no_limit;
   const auto alone = [&](const Instant& until) {
     gather();
     // After a window that was void the whole engine stands before what the caller knows of already.
     const std::uint64_t behind = told - std::min(told, detail::all_events(counts()));
     const std::uint64_t limit = behind < no_limit - event_limit ? event_limit + behind : no_limit;
-    return serially([&] { return engine_.run_until(until, pair_limit, limit); });
+    return serially([&] { return exact ? engine_.run_until(until, pair_limit, limit) : run_alone(until, pair_limit, limit); });
   };
   for (;;) {
     const Counts so_far = counts();
-    if (so_far.pair >= pair_limit || (exact_events && event_limit < no_limit) || whole_.idle() || whole_.stall_.jammed() ||
-        whole_.lines_.size() < 2)
+    if (!exact && whole_.idle() && redraws_ != nullptr && redraws_->heat() && redraws_->due_by(target)) {
+      if (!alone(redraws_->time())) return false;  // the first that moves
+      continue;
+    }
+    if (so_far.pair >= pair_limit || exact || whole_.idle() || whole_.stall_.jammed() || whole_.lines_.size() < 2)
       return alone(target);
     if (alone_until_) {
       const Instant until = std::min(target, *alone_until_);
@@ -63,6 +68,37 @@ bool Domains<Impact, Layout, World>::run_until(const Instant& target, std::uint6
     end_run();
     if (next_ == Next::arrived) return true;
     if (next_ == Next::counted) return false;
+  }
+}
+
+/// Runs the whole engine, and makes the redraws before `until`.
+template <class Impact, class Layout, class World>
+bool Domains<Impact, Layout, World>::run_alone(const Instant& until, std::uint64_t pair_limit, std::uint64_t event_limit) {
+  if (redraws_ == nullptr) return engine_.run_until(until, pair_limit, event_limit);
+  number_slots();
+  for (;;) {
+    const std::uint64_t before = detail::all_events(whole_.totals_);
+    const bool arrived = engine_.run_until(std::min(until, redraws_->time()), pair_limit, event_limit);
+    if (!arrived || !redraws_->due_by(until)) return arrived;
+    event_limit -= std::min(event_limit, detail::all_events(whole_.totals_) - before);
+    redraw_alone();
+  }
+}
+
+template <class Impact, class Layout, class World>
+void Domains<Impact, Layout, World>::number_slots() {
+  for (std::int32_t i = 0; i < whole_.count(); ++i) slot_of_id_[static_cast<std::size_t>(whole_.id(i))] = i;
+}
+
+/// Makes the next event of the redraws in the whole engine, which has come to its time.
+template <class Impact, class Layout, class World>
+void Domains<Impact, Layout, World>::redraw_alone() {
+  if constexpr (!World::plain) {
+    redraws_->each_of_next([this](const Redraw& redraw) {
+      redraws_->done().energy.add(whole_.redraw(slot_of_id_[static_cast<std::size_t>(redraw.event.disk)], *redraws_, redraw));
+      ++redraws_->done().redraws;
+    });
+    redraws_->go_on(redraws_->number() + 1, redraws_->time());
   }
 }
 
@@ -94,10 +130,12 @@ void Domains<Impact, Layout, World>::end_run() {
       if (!owed_.isZero(0.0)) alone_until_ = whole_.epoch_.plus(whole_.epoch_length_);
       break;
     case Next::failed:
+      restore_redraws();
       go_back();
       throw_failure();
       break;
     case Next::void_one:
+      restore_redraws();
       go_back();
       alone_until_ = whole_.epoch_.plus(whole_.epoch_length_);
       break;
@@ -119,10 +157,8 @@ void Domains<Impact, Layout, World>::share_out() {
 /// Chooses the parts of the box and the reach of halos.
 template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::divide() {
-  for (std::int32_t i = 0; i < whole_.count(); ++i) {
-    slot_of_id_[static_cast<std::size_t>(whole_.id(i))] = i;
-    centres_[static_cast<std::size_t>(i)] = whole_.lists_.centre(i);
-  }
+  number_slots();
+  for (std::int32_t i = 0; i < whole_.count(); ++i) centres_[static_cast<std::size_t>(i)] = whole_.lists_.centre(i);
   half_width_ = whole_.lists_.half_width();
   const std::array step{whole_.flight_.axis(0).unit * 0x1p32, whole_.flight_.axis(1).unit * 0x1p32};
   reach_ = std::max(suitable_reach(), 2.5 * half_width_);
@@ -152,6 +188,7 @@ void Domains<Impact, Layout, World>::make_domains() {
   stored_.assign(count(), {});
   collisions_elsewhere_.assign(count(), {});
   events_elsewhere_.assign(count(), {});
+  redraw_energies_.assign(count(), {});
   seconds_.assign(count(), 0.0);
   epoch_seconds_.assign(count(), 0.0);
   verdicts_.resize(count());
@@ -180,6 +217,7 @@ void Domains<Impact, Layout, World>::leave_to_domains() {
   whole_.recorder_.log_elsewhere(true);
   all_stored_here_ = true;
   collisions_told_ = events_told_ = 0;
+  keep_redraws();
   whole_.lists_.clear();
   whole_.queue_.clear();
   shared_ = up_to_date_ = true;
@@ -214,6 +252,7 @@ void Domains<Impact, Layout, World>::update() {
   all_stored_here_ = true;
   whole_.stamp_ = 1;
   whole_.now_ = now_;
+  keep_redraws();
   collisions_told_ = events_told_ = 0;
   up_to_date_ = true;
 }
@@ -275,11 +314,35 @@ void Domains<Impact, Layout, World>::begin_window() {
   window_end_ = longest_end_ = std::min({now_ + window_, target_, whole_.epoch_length_});
   const double expected = pair_rate_ * (window_end_ - now_), left = static_cast<double>(pair_limit_ - pairs_before_);
   counting_ = expected + 4.0 * std::sqrt(expected) + 64.0 > left;
+  if (redraws_ != nullptr) draw_redraws();
   if (counting_) window_end_ = now_;
+  window_begins_ = true;
   counted_ = pairs_before_;
   part_ = 0.0;
   at_limit_ = false;
   next_ = Next::window;
+}
+
+/// Draws the redraws of the window that begins, and lets it end earlier where there are more than domains have room for.
+template <class Impact, class Layout, class World>
+void Domains<Impact, Layout, World>::draw_redraws() {
+  const std::size_t most = 2 * whole_.lines_.size() + 64;
+  due_.clear();
+  redraws_->draw_ahead(due_, most, [this](const Instant& time) {
+    const double since = time.since<double>(whole_.epoch_);
+    return since <= longest_end_ && since < whole_.epoch_length_ && redraws_->due_at(time, end_);
+  });
+  most_redraws_ = due_.size();
+  if (due_.size() >= most) window_end_ = longest_end_ = time_of(due_.back());
+  if (first()) fastest_ = std::max(fastest_, redraws_->fastest(due_));
+}
+
+/// Counts the redraws of a window that was right.
+template <class Impact, class Layout, class World>
+void Domains<Impact, Layout, World>::count_redraws() {
+  for (const ExactSum& energy : redraw_energies_) redraws_->done().energy.add(energy);
+  redraws_->done().redraws += most_redraws_;
+  if (most_redraws_ > 0) redraws_->go_on_after(due_[most_redraws_ - 1]);
 }
 
 /// Part of a window in which the limit of collisions may come: goes as far as it most likely does not, again and again, and the
@@ -310,6 +373,7 @@ template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::step_to_limit() {
   const std::uint64_t before = whole_.totals_.pair;
   bool blocked = false;
+  for (most_redraws_ = 0; most_redraws_ < due_.size() && time_of(due_[most_redraws_]) <= window_end_;) ++most_redraws_;
   for (;;) {
     Turn mine;
     mine.blocked = blocked;
@@ -319,6 +383,13 @@ void Domains<Impact, Layout, World>::step_to_limit() {
     }
     const Turn chosen = choose(mine, before);
     if (chosen.domain == Turn::none) return;
+    blocked = false;
+    if (chosen.domain == Turn::redraw) {
+      const std::uint64_t number = due_[most_redraws_].number;
+      while (most_redraws_ < due_.size() && due_[most_redraws_].number == number) ++most_redraws_;
+      for (const auto& domain : here()) domain->redraw_next(), blocked = blocked || domain->stopped();
+      continue;
+    }
     blocked = is_here(chosen.domain) && !domains_[chosen.domain]->run_next(longest_end_);
   }
 }
@@ -339,6 +410,8 @@ typename Domains<Impact, Layout, World>::Turn Domains<Impact, Layout, World>::ch
     }
   }
   if (first()) {
+    if (most_redraws_ < due_.size() && time_of(due_[most_redraws_]) < all.time)
+      all.time = time_of(due_[most_redraws_]), all.domain = Turn::redraw;
     window_end_ = all.blocked ? longest_end_ : std::max(window_end_, stepped_to_);
     if (all.blocked || before + all.pairs >= pair_limit_) {
       all.domain = Turn::none;
@@ -379,7 +452,10 @@ void Domains<Impact, Layout, World>::read_messages(std::size_t d) {
 
 template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::run_window(std::size_t thread) {
-  each(thread, [&](std::size_t d) { domains_[d]->run(window_end_); });
+  each(thread, [&](std::size_t d) {
+    if (redraws_ != nullptr) domains_[d]->begin_window(*redraws_, due_);
+    domains_[d]->run(window_end_, most_redraws_);
+  });
   while (counting_) {
     meet(thread, [this] {
       gather_facts(false);
@@ -388,7 +464,7 @@ void Domains<Impact, Layout, World>::run_window(std::size_t thread) {
       tell_decision();
       if (stepping_) step_to_limit();
     });
-    each(thread, [&](std::size_t d) { domains_[d]->run(window_end_); });
+    each(thread, [&](std::size_t d) { domains_[d]->run(window_end_, most_redraws_); });
     meet(thread, [] {});
   }
   each(thread, [&](std::size_t d) { domains_[d]->write_messages(); });
@@ -431,6 +507,7 @@ void Domains<Impact, Layout, World>::decide() {
     if (const double length = window_end_ - now_; length > 0.0 && pairs > pairs_before_ + 200)
       pair_rate_ = static_cast<double>(pairs - pairs_before_) / length;
     hand_over_records();
+    if (redraws_ != nullptr) count_redraws();
     const bool whole_window = window_end_ - now_ >= 0.99 * window_;  // not cut short by a sample or an epoch
     now_ = window_end_;
     adapt_window(nearest - allowed, whole_window);
@@ -600,6 +677,7 @@ void Domains<Impact, Layout, World>::end_of_epoch() {
     whole_.totals_.numerics.longest_neighbour_list = longest;
   }
   count_steps();
+  keep_redraws();
   all_stored_here_ = ranks_ == nullptr;
   collisions_told_ = events_told_ = 0;
   now_ = 0.0;
@@ -668,8 +746,8 @@ Instant Domains<Impact, Layout, World>::now() const {
 
 template <class Impact, class Layout, class World>
 std::size_t Domains<Impact, Layout, World>::bytes() const {
-  std::size_t sum =
-      engine_.bytes() + centres_.capacity() * sizeof(NeighbourhoodCentre) + slot_of_id_.capacity() * sizeof(std::int32_t);
+  std::size_t sum = engine_.bytes() + centres_.capacity() * sizeof(NeighbourhoodCentre) +
+                    slot_of_id_.capacity() * sizeof(std::int32_t) + due_.capacity() * sizeof(Redraw);
   if (shared_)
     for (const auto& domain : here()) sum += domain->bytes();
   return sum;

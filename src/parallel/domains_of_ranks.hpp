@@ -53,6 +53,7 @@ std::string Domains<Impact, Layout, World>::engine_as_bytes() {
   std::ostringstream out;
   SavingArchive archive(out);
   archive(whole_.recorder_.listening(), whole_.recorder_.logging(), reach_, *parts_, engine_);
+  if (redraws_ != nullptr) archive(redraws_->scale());
   return std::move(out).str();
 }
 
@@ -65,9 +66,14 @@ void Domains<Impact, Layout, World>::take_share(std::string_view bytes) {
     std::istringstream in{std::string(bytes)};
     LoadingArchive archive(in);
     archive(listening, logging, reach_, parts_.emplace(), engine_);
+    if (redraws_ != nullptr) {
+      GrowingScale scale;
+      archive(scale);
+      redraws_->set_scale(scale);
+    }
     parts_->set_reach(reach_);
     half_width_ = whole_.lists_.half_width();
-    for (std::int32_t i = 0; i < whole_.count(); ++i) slot_of_id_[static_cast<std::size_t>(whole_.id(i))] = i;
+    number_slots();
     make_domains();
   } catch (...) {
     failure_.keep_current();
@@ -106,9 +112,15 @@ void Domains<Impact, Layout, World>::gather_facts(bool window_over) {
     facts.epoch_seconds = epoch_seconds_[d];
     facts.stopped = domain.stopped();
     if (!first()) packet.put(facts);
+    if (redraws_ == nullptr || !window_over) continue;
+    redraw_energies_[d] = domain.take_redraw_energy();
+    if (!first()) packet.put(redraw_energies_[d]);
   }
   if (ranks_ == nullptr) return;
-  from_others(ranks_->gather(packet.bytes()), [this](std::size_t d, PacketReader& reader) { facts_[d] = reader.take<Facts>(); });
+  from_others(ranks_->gather(packet.bytes()), [&](std::size_t d, PacketReader& reader) {
+    facts_[d] = reader.take<Facts>();
+    if (redraws_ != nullptr && window_over) redraw_energies_[d] = reader.take<ExactSum>();
+  });
   gather_failures();
 }
 
@@ -220,6 +232,12 @@ void Domains<Impact, Layout, World>::tell_decision() {
                         .limits = whole_.limits_,
                         .fallen = fallen_,
                         .factor = factor_,
+                        .epoch = whole_.epoch_,
+                        .end = end_,
+                        .redraw_time = redraws_ == nullptr ? forever : redraws_->time(),
+                        .redraw_end = redraws_ == nullptr ? forever : redraws_->end(),
+                        .redraw_number = redraws_ == nullptr ? 0 : redraws_->number(),
+                        .window_begins = std::exchange(window_begins_, false),
                         .next = next_,
                         .counting = counting_,
                         .stepping = stepping_,
@@ -236,6 +254,14 @@ void Domains<Impact, Layout, World>::tell_decision() {
   whole_.epoch_length_ = told.epoch_length;
   whole_.frame_.edge_step = told.edge_step;
   whole_.limits_ = told.limits;
+  whole_.epoch_ = told.epoch;
+  end_ = told.end;
+  if (redraws_ != nullptr && told.window_begins) {
+    redraws_->set_end(told.redraw_end);
+    redraws_->go_on_at(told.redraw_number, told.redraw_time);
+    draw_redraws();
+    window_end_ = told.window_end;
+  }
   fallen_ = told.fallen;
   factor_ = told.factor;
   next_ = told.next;

@@ -30,6 +30,10 @@
 #include <utility>
 #include <vector>
 
+namespace carom {
+class Redraws;
+}
+
 namespace carom::detail {
 
 class AnyEngine {
@@ -49,6 +53,12 @@ class AnyEngine {
   /// Shares the disks out from now on. Requires an empty why_not_threads().
   virtual void set_threads(const Threads& /*threads*/) {}
   [[nodiscard]] virtual ThreadCounts thread_counts() const { return {}; }
+  /// Has the engine redraw velocities by itself where its disks are shared out. `redraws` must outlive it, and are those of the
+  /// same scene.
+  virtual void set_redraws(Redraws* /*redraws*/) {}
+  /// Returns whether it does so now: run_about(), and run_until() without a limit of events, then make all redraws that are due
+  /// by their target.
+  [[nodiscard]] virtual bool redraws_velocities() const { return false; }
   [[nodiscard]] virtual bool idle() const = 0;
   [[nodiscard]] virtual bool jammed() const = 0;
   /// The ids of the disks whose vanishing speeds are the reason for jammed(); empty where another reason is.

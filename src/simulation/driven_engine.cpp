@@ -12,11 +12,6 @@ namespace carom::detail {
 
 namespace {
 
-/// `time` on a clock whose zero is at `zero`.
-Instant moved(const Instant& time, const Instant& zero) {
-  return time < forever ? time.plus(-zero.high).plus(-zero.low) : forever;
-}
-
 /// `time` after `start`, which is mostly 0.
 Instant after(const Instant& start, const Instant& time) {
   if (!(time < forever) || !(Instant{} < start)) return time;
@@ -46,20 +41,18 @@ bool DrivenEngine::needed_by(const Effects& effects) {
 DrivenEngine::DrivenEngine(std::unique_ptr<AnyEngine> engine, const Scene& scene, Disks disks)
     : WrappedEngine(std::move(engine)),
       disks_(std::move(disks)),
-      andersen_(scene.effects.thermostat, static_cast<std::int32_t>(disks_.count()), scene.run.seed),
-      tumbles_(scene.effects.tumbling, static_cast<std::int32_t>(disks_.count()), scene.run.seed),
-      brownian_(disks_.count() > 0 ? scene.effects.brownian : std::nullopt, scene.run.seed),
+      redraws_(scene.effects, disks_, scene.run.seed),
       spinning_(scene.effects.collision.roughness.has_value()),
-      growth_rate_(scene.effects.growth_rate()),
+      scale_{.rate = scene.effects.growth_rate()},
       packing_fraction_(scene.packing_fraction()),
-      keeps_energy_(growth_rate_ > 0.0 && !andersen_.acts() && !brownian_.acts()),
+      keeps_energy_(scale_.rate > 0.0 && !redraws_.heat()),
       between_measurements_(std::max<std::uint64_t>(1, disks_.count() / 2)),
       window_(disks_.count(), degrees_of_freedom(scene)) {
-  if (redraws()) {
-    next_ = redraw(0);
-    thermostat_time_ = engine_->now().plus(next_.wait);
+  if (redraws_.act()) {
+    redraws_.go_on(0, engine_->now());
+    engine_->set_redraws(&redraws_);
   }
-  if (growth_rate_ > 0.0) {
+  if (scale_.rate > 0.0) {
     const Growth& growth = *scene.effects.growth;
     if (growth.packing_fraction) end_scale_ = std::sqrt(*growth.packing_fraction / packing_fraction_);
     end_pressure_ = growth.reduced_pressure.value_or(0.0);
@@ -73,20 +66,23 @@ DrivenEngine::DrivenEngine(std::unique_ptr<AnyEngine> engine, const Scene& scene
   begin();
 }
 
-/// Calls run_engine, a way to run the engine, again and again, and drives it in between.
-bool DrivenEngine::run(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit, RunFunction run_engine) {
+/// Runs the engine again and again, and drives it in between.
+bool DrivenEngine::run(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit, bool exact_events) {
   bool arrived = false;
   while (!grown_ && !filled_ && event_limit > 0) {
-    const Instant stop = std::min({target, thermostat_time_, end_, full_});
-    const std::uint64_t before = detail::all_events(engine_->counts());
-    arrived = ((*engine_).*run_engine)(stop, std::min(pair_limit, measure_at_), event_limit);
-    event_limit -= std::min(event_limit, detail::all_events(engine_->counts()) - before);
+    Instant stop = std::min({target, end_, full_});
+    redraws_.set_end(std::min(end_, full_));
+    const bool by_itself = engine_->redraws_velocities() && (!exact_events || event_limit == never);
+    if (!by_itself) stop = std::min(stop, redraws_.time());
+    const std::uint64_t before = happened(), pairs = std::min(pair_limit, measure_at_);
+    arrived = exact_events ? engine_->run_until(stop, pairs, event_limit) : engine_->run_about(stop, pairs, event_limit);
+    event_limit -= std::min(event_limit, std::max(happened(), before) - before);
     if (engine_->counts().pair >= measure_at_) {
       arrived = false;
       measure_and_rescale();
       if (engine_->counts().pair >= pair_limit) break;
     } else if (!arrived ||
-               target < std::min({thermostat_time_, end_, full_})) {  // NOLINT(bugprone-branch-clone): the order decides
+               target < std::min({redraws_.time(), end_, full_})) {  // NOLINT(bugprone-branch-clone): the order decides
       break;
     } else if (!(stop < end_) && end_ < forever) {
       grown_ = at_end_scale_ = true;
@@ -94,8 +90,8 @@ bool DrivenEngine::run(const Instant& target, std::uint64_t pair_limit, std::uin
     } else if (!(stop < full_) && full_ < forever) {
       filled_ = true;
       arrived = false;
-    } else if (!(stop < thermostat_time_) && thermostat_time_ < forever) {
-      apply_thermostat_event();
+    } else if (!(stop < redraws_.time()) && redraws_.time() < forever) {
+      redraw_velocities();
       event_limit -= std::min<std::uint64_t>(event_limit, 1);
       arrived = false;
     } else {
@@ -108,8 +104,8 @@ bool DrivenEngine::run(const Instant& target, std::uint64_t pair_limit, std::uin
 
 /// Disks that nothing moves now may be given a velocity later, or grow until they touch.
 bool DrivenEngine::idle() const {
-  const bool grows = growth_rate_ > 0.0 && !grown_ && !filled_;
-  return engine_->idle() && !(andersen_.acts() || brownian_.acts() || grows);
+  const bool grows = scale_.rate > 0.0 && !grown_ && !filled_;
+  return engine_->idle() && !(redraws_.heat() || grows);
 }
 
 std::size_t DrivenEngine::bytes() const {
@@ -128,11 +124,11 @@ void DrivenEngine::store_velocities(State& state) const {
 
 template <class Self, class Archive>
 void DrivenEngine::archive_all(Self& self, Archive& archive) {
-  archive(self.thermostat_events_, self.next_, self.thermostat_time_, self.start_, self.start_scale_, self.end_scale_, self.end_,
-          self.grown_, self.at_end_scale_, self.full_, self.filled_);
+  archive(self.redraws_, self.scale_.start, self.scale_.at_start, self.end_scale_, self.end_, self.grown_, self.at_end_scale_,
+          self.full_, self.filled_);
   archive(self.measure_at_, self.window_, self.energy_at_start_, self.stretch_start_, self.stretch_pairs_, self.stretch_virial_,
           self.stretch_energy_);
-  archive(self.counts_, self.counted_thermostat_events_, self.thermostat_energy_, self.rescaling_energy_);
+  archive(self.counts_, self.redraws_.done(), self.rescaling_energy_);
 }
 
 void DrivenEngine::save(SavingArchive& archive) const {
@@ -143,60 +139,58 @@ void DrivenEngine::save(SavingArchive& archive) const {
 void DrivenEngine::load(LoadingArchive& archive) {
   engine_->load(archive);
   archive_all(*this, archive);
+  redraws_.set_scale(scale_);
 }
 
 void DrivenEngine::reset_clock() {
   const Instant zero = engine_->now();
   engine_->reset_clock();
-  thermostat_time_ = moved(thermostat_time_, zero);
+  redraws_.move_clock(zero);
   begin();
 }
 
 void DrivenEngine::leave(Continuation& continuation) const {
   engine_->leave(continuation);
-  continuation.totals.thermostat += counted_thermostat_events_;
-  continuation.totals.thermostat_energy.add(thermostat_energy_);
+  continuation.totals.thermostat += redraws_.done().redraws;
+  continuation.totals.thermostat_energy.add(redraws_.done().energy);
   continuation.totals.growth_energy.add(rescaling_energy_);
-  if (!redraws()) return;
-  continuation.thermostat_events = thermostat_events_ + 1;
-  continuation.pending = Continuation::Pending{redraw_rate(), redraw_kind(), thermostat_events_, next_, thermostat_time_};
+  if (!redraws_.act()) return;
+  continuation.thermostat_events = redraws_.number() + 1;
+  continuation.pending =
+      Continuation::Pending{redraws_.rate(), redraws_.kind(), redraws_.number(), redraws_.next(), redraws_.time()};
 }
 
 void DrivenEngine::take_over(const Continuation& continuation) {
   engine_->take_over(continuation);
-  if (const auto& pending = continuation.pending; pending && pending->rate == redraw_rate() && pending->kind == redraw_kind()) {
-    thermostat_events_ = pending->number;
-    next_ = pending->event;
-    thermostat_time_ = pending->time;
-  } else if (redraws()) {
-    thermostat_events_ = continuation.thermostat_events;
-    next_ = redraw(thermostat_events_);
-    thermostat_time_ = engine_->now().plus(next_.wait);
-  }
+  if (const auto& pending = continuation.pending; pending && pending->rate == redraws_.rate() && pending->kind == redraws_.kind())
+    redraws_.go_on(pending->number, pending->event, pending->time);
+  else if (redraws_.act())
+    redraws_.go_on(continuation.thermostat_events, engine_->now());
   begin();
 }
 
 /// Whatever is counted from now on: from where the clock stands at 0, or from a change.
 void DrivenEngine::begin() {
-  counted_thermostat_events_ = 0;
-  thermostat_energy_ = rescaling_energy_ = ExactSum{};
-  if (growth_rate_ > 0.0) {
-    start_ = engine_->now();
-    start_scale_ = engine_->state().scale;
-    if (end_scale_ > 0.0) end_ = after(start_, ratio(std::max(0.0, end_scale_ - start_scale_), growth_rate_));
-    if (full_scale_ > 0.0) full_ = after(start_, ratio(std::max(0.0, full_scale_ - start_scale_), growth_rate_));
+  redraws_.done() = {};
+  rescaling_energy_ = ExactSum{};
+  if (scale_.rate > 0.0) {
+    scale_.start = engine_->now();
+    scale_.at_start = engine_->state().scale;
+    if (end_scale_ > 0.0) end_ = after(scale_.start, ratio(std::max(0.0, end_scale_ - scale_.at_start), scale_.rate));
+    if (full_scale_ > 0.0) full_ = after(scale_.start, ratio(std::max(0.0, full_scale_ - scale_.at_start), scale_.rate));
     const Energy now = energy();
     energy_at_start_ = now.total();
     measure_at_ = engine_->counts().pair + between_measurements_;
-    stretch_start_ = start_;
+    stretch_start_ = scale_.start;
     stretch_pairs_ = engine_->counts().pair;
     stretch_virial_ = engine_->totals().virial;
     stretch_energy_ = now.translation;
   }
+  redraws_.set_scale(scale_);
   count();
 }
 
-double DrivenEngine::scale() const { return start_scale_ + growth_rate_ * moved(now(), start_).high; }
+std::uint64_t DrivenEngine::happened() const { return detail::all_events(engine_->counts()) + redraws_.done().redraws; }
 
 /// The moment of inertia of disk i, which is uniform.
 double DrivenEngine::moment_of_inertia(std::size_t i) const {
@@ -218,48 +212,22 @@ DrivenEngine::Energy DrivenEngine::energy() const {
   return energy;
 }
 
-double DrivenEngine::redraw_rate() const {
-  return tumbles_.acts() ? tumbles_.rate() : brownian_.acts() ? brownian_.rate() : andersen_.rate();
-}
-
-ThermostatEvent DrivenEngine::redraw(std::uint64_t n) const {
-  if (brownian_.acts()) return {.wait = brownian_.step()};
-  return tumbles_.acts() ? tumbles_.event(n) : andersen_.event(n);
-}
-
-void DrivenEngine::apply_thermostat_event() {
-  if (brownian_.acts()) {
-    redraw_all();
-  } else {
-    const auto disk = static_cast<std::size_t>(next_.disk);
-    const bool turns = tumbles_.acts();
-    const Eigen::Vector2d v =
-        turns ? Tumbles::velocity(next_, engine_->velocity(next_.disk)) : andersen_.velocity(next_, disks_.mass[disk]);
-    const double spin = !spinning_ ? 0.0
-                        : turns    ? engine_->state().spins[next_.disk]
-                                   : andersen_.spin(next_, moment_of_inertia(disk));
-    thermostat_energy_.add(engine_->set_velocity(next_.disk, v, spin));
+/// Makes the next event happen: of all redraws of Brownian motion, the last one stands for all where they are told one by one.
+void DrivenEngine::redraw_velocities() {
+  redraws_.each_of_next([this](const Redraw& redraw) {
+    const std::int32_t i = redraw.event.disk;
+    const auto disk = static_cast<std::size_t>(i);
+    const double mass = disks_.mass[disk];
+    const bool turns = !redraws_.heat();
+    const Eigen::Vector2d v = redraws_.velocity(redraw, turns ? engine_->velocity(i) : Eigen::Vector2d::Zero(), mass);
+    double spin = 0.0;
+    if (spinning_) spin = redraws_.spin(redraw, turns ? engine_->state().spins[i] : 0.0, mass, disks_.radius[disk], now());
+    redraws_.done().energy.add(engine_->set_velocity(i, v, spin));
+    ++redraws_.done().redraws;
     last_thermostat_event_ = {
-        .time = now().high, .time_remainder = now().low, .disk = next_.disk, .partner = thermostat_event, .velocity = v};
-    ++counted_thermostat_events_;
-  }
-  next_ = redraw(++thermostat_events_);
-  thermostat_time_ = thermostat_time_.plus(next_.wait);
-}
-
-/// The last of them stands for all where they are told one by one.
-void DrivenEngine::redraw_all() {
-  RandomStream random = brownian_.stream(thermostat_events_);
-  for (std::size_t i = 0; i < disks_.count(); ++i) {
-    const Normals normals = draw_normals(random);
-    const Eigen::Vector2d v = brownian_.velocity(normals, disks_.mass[i]);
-    const double spin = spinning_ ? brownian_.spin(normals, moment_of_inertia(i)) : 0.0;
-    const auto disk = static_cast<std::int32_t>(i);
-    thermostat_energy_.add(engine_->set_velocity(disk, v, spin));
-    last_thermostat_event_ = {
-        .time = now().high, .time_remainder = now().low, .disk = disk, .partner = thermostat_event, .velocity = v};
-  }
-  counted_thermostat_events_ += disks_.count();
+        .time = now().high, .time_remainder = now().low, .disk = i, .partner = thermostat_event, .velocity = v};
+  });
+  redraws_.go_on(redraws_.number() + 1, redraws_.time());
 }
 
 /// Each time that every disk has collided about once on average.
@@ -296,15 +264,15 @@ void DrivenEngine::rescale(const Energy& now) {
 
 Totals DrivenEngine::totals() const {
   Totals totals = engine_->totals();
-  totals.thermostat += counted_thermostat_events_;
-  totals.thermostat_energy += thermostat_energy_.value();
+  totals.thermostat += redraws_.done().redraws;
+  totals.thermostat_energy += redraws_.done().energy.value();
   totals.growth_energy += rescaling_energy_.value();
   return totals;
 }
 
 void DrivenEngine::count() {
   counts_ = engine_->counts();
-  counts_.thermostat += counted_thermostat_events_;
+  counts_.thermostat += redraws_.done().redraws;
 }
 
 }  // namespace carom::detail

@@ -2,12 +2,12 @@
 // An engine that something drives from outside, between events: a thermostat, tumbles or Brownian redraws that give disks new
 // velocities, of which one acts at most, and the schedule by which disks grow (Lubachevsky & Stillinger 1990), which rescales
 // velocities and says when to stop. Both are so rare that the loop need not know of them: it runs to the time, or the number of
-// collisions, at which the next of them is due.
+// collisions, at which the next of them is due. Where the disks are shared out to several cores, these redraw velocities
+// themselves (parallel/domains.hpp), and all that is left to do here is what comes at the end of a stretch.
 
 #include "core/exact_sum.hpp"
-#include "effects/andersen.hpp"
-#include "effects/brownian.hpp"
-#include "effects/tumbling.hpp"
+#include "effects/growing_scale.hpp"
+#include "effects/redraws.hpp"
 #include "simulation/pressure_window.hpp"
 #include "simulation/wrapped_engine.hpp"
 
@@ -33,10 +33,10 @@ class DrivenEngine final : public WrappedEngine {
   DrivenEngine(std::unique_ptr<AnyEngine> engine, const Scene& scene, Disks disks);
 
   bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) override {
-    return run(target, pair_limit, event_limit, &AnyEngine::run_until);
+    return run(target, pair_limit, event_limit, true);
   }
   bool run_about(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) override {
-    return run(target, pair_limit, event_limit, &AnyEngine::run_about);
+    return run(target, pair_limit, event_limit, false);
   }
   [[nodiscard]] bool idle() const override;
   /// Or one of them fills the box.
@@ -71,39 +71,25 @@ class DrivenEngine final : public WrappedEngine {
     [[nodiscard]] double total() const { return translation + rotation; }
   };
   [[nodiscard]] Energy energy() const;
-  [[nodiscard]] double scale() const;
+  [[nodiscard]] double scale() const { return scale_.at(now()); }
   [[nodiscard]] double moment_of_inertia(std::size_t i) const;
 
-  using RunFunction = bool (AnyEngine::*)(const Instant&, std::uint64_t, std::uint64_t);
-  bool run(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit, RunFunction run_engine);
+  bool run(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit, bool exact_events);
   void begin();
-  /// The rate of redraws of any kind, and which they are: numbers of Continuation::Pending.
-  [[nodiscard]] double redraw_rate() const;
-  [[nodiscard]] int redraw_kind() const { return tumbles_.acts() ? 1 : brownian_.acts() ? 2 : 0; }
-  [[nodiscard]] bool redraws() const { return redraw_rate() > 0.0; }
-  /// Redraw number n, of one disk or, by Brownian motion, of all.
-  [[nodiscard]] ThermostatEvent redraw(std::uint64_t n) const;
-  void apply_thermostat_event();
-  void redraw_all();
+  /// All that is counted without keeping books.
+  [[nodiscard]] std::uint64_t happened() const;
+  void redraw_velocities();
   void measure_and_rescale();
   void measure_pressure(const Energy& energy);
   void rescale(const Energy& energy);
   void count();
 
   Disks disks_;
-  Andersen andersen_;
-  Tumbles tumbles_;
-  BrownianRedraws brownian_;
+  Redraws redraws_;
   bool spinning_;
-
-  std::uint64_t thermostat_events_ = 0;  ///< ever
-  ThermostatEvent next_;                 ///< number thermostat_events_
-  Instant thermostat_time_ = forever;
   Event last_thermostat_event_;
 
-  double growth_rate_;
-  Instant start_{};            ///< from when disks grow and energy is kept: the zero of time, or the last change from outside
-  double start_scale_ = 1.0;   ///< at start_
+  GrowingScale scale_;         ///< since when disks grow and energy is kept: the zero of time, or the last change from outside
   double end_scale_ = 0.0;     ///< at which disks have grown enough; 0 where no packing fraction is asked for
   double end_pressure_ = 0.0;  ///< the same for the reduced pressure
   double packing_fraction_;    ///< at scale 1
@@ -117,7 +103,7 @@ class DrivenEngine final : public WrappedEngine {
   std::uint64_t between_measurements_;  ///< collisions of pairs from one look at the gas to the next
   std::uint64_t measure_at_ = never;    ///< Totals::pair at which velocities are rescaled and the pressure is measured
   PressureWindow window_;
-  double energy_at_start_ = 0.0;  ///< kinetic, at start_
+  double energy_at_start_ = 0.0;  ///< kinetic, at scale_.start
 
   /// Where the current stretch of the pressure's window began.
   Instant stretch_start_{};
@@ -126,8 +112,7 @@ class DrivenEngine final : public WrappedEngine {
   double stretch_energy_ = 0.0;  ///< of translation
 
   Counts counts_;  ///< the engine's, with what came from outside
-  std::uint64_t counted_thermostat_events_ = 0;
-  ExactSum thermostat_energy_, rescaling_energy_;
+  ExactSum rescaling_energy_;
 };
 
 }  // namespace carom::detail

@@ -23,9 +23,12 @@ class ThreadedEngine final : public WrappedEngine {
   void set_threads(const Threads& threads) override { share_out(threads, nullptr); }
   void set_ranks(const Threads& threads, Ranks& ranks) override { share_out(threads, &ranks); }
   void serve(const Threads& threads, Ranks& ranks) override {
-    Domains<Impact, Layout, World>(static_cast<Adapter&>(*engine_).engine(), threads, &ranks).serve();
+    Domains<Impact, Layout, World>(static_cast<Adapter&>(*engine_).engine(), threads, &ranks, redraws_).serve();
   }
   [[nodiscard]] ThreadCounts thread_counts() const override { return domains_ ? domains_->thread_counts() : ThreadCounts{}; }
+
+  void set_redraws(Redraws* redraws) override { redraws_ = redraws; }
+  [[nodiscard]] bool redraws_velocities() const override { return domains_ != nullptr && redraws_ != nullptr; }
 
   bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) override {
     return run(target, pair_limit, event_limit, true);
@@ -103,7 +106,8 @@ class ThreadedEngine final : public WrappedEngine {
     gather();
     domains_.reset();
     if (threads.threads <= 1 && threads.domains <= 1) return;
-    domains_ = std::make_unique<Domains<Impact, Layout, World>>(static_cast<Adapter&>(*engine_).engine(), threads, ranks);
+    domains_ =
+        std::make_unique<Domains<Impact, Layout, World>>(static_cast<Adapter&>(*engine_).engine(), threads, ranks, redraws_);
     count();
   }
   bool run(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit, bool exact_events) {
@@ -130,6 +134,7 @@ class ThreadedEngine final : public WrappedEngine {
   }
 
   std::unique_ptr<Domains<Impact, Layout, World>> domains_;
+  Redraws* redraws_ = nullptr;
   Counts counts_;
   std::string why_not_threads_;
 };

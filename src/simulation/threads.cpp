@@ -52,9 +52,6 @@ double most_within(double width, const Disks& disks) {
 }  // namespace
 
 std::string why_not_threads(const Effects& effects, const Disks& disks) {
-  if (effects.tumbling && effects.tumbling->rate > 0.0) return "tumbles draw the directions of all disks in one order";
-  if (effects.brownian && effects.brownian->rate > 0.0) return "the velocities of all disks are redrawn in one order";
-  if (effects.bath_temperature()) return "the thermostat draws the velocities of all disks in one order";
   if (effects.shear_rate() != 0.0) return "the box is sheared";
   if (effects.drag_rate() > 0.0) return "drag slows the clock";
   if (const std::vector<PotentialStep> steps = effects.potential_steps(); !steps.empty()) {

@@ -90,10 +90,9 @@ TEST_F(RanksOfRunCommand, GiveTheFilesOfOneCore) {
 TEST_F(RanksOfRunCommand, SayMistakesOnce) {
   refused_once(mpirun("3", {"run", "gone.toml"}), "gone.toml: there is no such file");
   refused_once(mpirun("2", {"run", "gas.toml", "--set", "disks.0.radius=-1.0"}), "radius");
-  refused_once(
-      mpirun("2", {"run", "gas.toml", "--set", "thermostat.temperature=1.0", "--set", "thermostat.rate=1.0"}),
-      "carom: gas.toml: only one process can compute this run, for the thermostat draws the velocities of all disks in one "
-      "order, and MPI has started 2; start one without it");
+  refused_once(mpirun("2", {"run", "gas.toml", "--set", "drag.rate=1.0"}),
+               "carom: gas.toml: only one process can compute this run, for drag slows the clock, and MPI has "
+               "started 2; start one without it");
   refused_once(mpirun("2", {"run", "gas.toml", "--threads", "33"}), "--threads 33: give auto, or a number from 1 to 32");
   refused_once(mpirun("1", {"run", "gas.toml", ":", "-n", "1", CAROM_PROGRAM, "run", "gas.toml", "--force"}),
                "carom: MPI connects 2 processes, which compute one run together, and they were given different commands");

@@ -109,8 +109,8 @@ TEST_F(ThreadsOfRun, AreRefusedInOneSentenceWhereARunCannotBeSharedOut) {
   const std::string range = "give auto, or a number from 1 to 32";
   for (const char* wrong : {"0", "33", "two", "-1"})
     refused({"run", "gas.toml", "--threads", wrong}, std::string("--threads ") + wrong + ": " + range);
-  refused({"run", "gas.toml", "--threads", "3", "--set", "thermostat.temperature=1.0", "--set", "thermostat.rate=1.0"},
-          "--threads 3: only one core can compute this run, for the thermostat");
+  refused({"run", "gas.toml", "--threads", "3", "--set", "drag.rate=1.0"},
+          "--threads 3: only one core can compute this run, for drag slows the clock; give 1, or leave it out");
   refused({"run", "gas.toml", "--threads", "3", "--engine", "textbook"}, "--threads 3: only one core can compute this run, for");
   EXPECT_FALSE(fs::exists(file("gas")));
 }
@@ -118,8 +118,8 @@ TEST_F(ThreadsOfRun, AreRefusedInOneSentenceWhereARunCannotBeSharedOut) {
 TEST_F(ThreadsOfRun, AreToldByCheckWithTheReason) {
   EXPECT_THAT(carom({"check", "gas.toml"}).out,
               HasSubstr("threads     one core: 2,000 disks are fewer than the 50,000 from which on several cores pay\n"));
-  EXPECT_THAT(carom({"check", "gas.toml", "--set", "thermostat.temperature=1.0", "--set", "thermostat.rate=1.0"}).out,
-              HasSubstr("threads     one core: the thermostat"));
+  EXPECT_THAT(carom({"check", "gas.toml", "--set", "drag.rate=1.0"}).out,
+              HasSubstr("threads     one core: drag slows the clock"));
 }
 
 }  // namespace

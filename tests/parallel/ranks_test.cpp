@@ -66,6 +66,16 @@ TEST(Ranks, GiveTheBitsOfOneForScenesOfAllKinds) {
   Scene stepped = lean_gas(3000, 0.3, Boundary::periodic);
   stepped.effects.stepped_potential = SteppedPotential{{{1.2, 0.4}, {1.7, -0.6}}};
   expect_same_runs_on(3, stepped, {}, 6.0, 3, "stepped");
+  Scene tumbling = mixture(3000);
+  tumbling.effects.tumbling = Tumbling{2.0};
+  expect_same_runs_on(3, tumbling, {.threads = 2}, 6.0, 3, "tumbling");
+  Scene thermal = rough;
+  thermal.effects.growth = Growth{.rate = 0.01};
+  thermal.effects.thermostat = Thermostat{2.0, 1.0};
+  expect_same_runs_on(3, thermal, {}, 6.0, 3, "thermal");
+  Scene brownian = lean_gas(3000, 0.3, Boundary::walls);
+  brownian.effects.brownian = Brownian{1.0, 2.0};
+  expect_same_runs_on(4, brownian, {}, 6.0, 3, "Brownian");
   Scene unlike = mixture(3000);
   unlike.effects.non_additivity = NonAdditivity{-0.2};
   expect_same_runs_on(3, unlike, {}, 8.0, 3, "non-additive");

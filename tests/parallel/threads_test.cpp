@@ -113,6 +113,159 @@ TEST(Threads, ArePutAsideWhereADiskMayHaveMorePartnersThanAMessageHolds) {
   EXPECT_EQ(make_simulation(scene).why_not_threads(), "");
 }
 
+/// The redraws of velocities that a scene may have.
+enum class Redrawing { thermostat, tumbling, brownian };
+constexpr Redrawing all_redrawing[] = {Redrawing::thermostat, Redrawing::tumbling, Redrawing::brownian};
+
+void redraw(Scene& scene, Redrawing how, double rate, double temperature = 1.0) {
+  if (how == Redrawing::thermostat) scene.effects.thermostat = Thermostat{temperature, rate};
+  if (how == Redrawing::tumbling) scene.effects.tumbling = Tumbling{rate};
+  if (how == Redrawing::brownian) scene.effects.brownian = Brownian{temperature, rate};
+}
+
+TEST(Threads, GiveTheBitsOfOneWhereVelocitiesAreRedrawn) {
+  for (const Redrawing how : all_redrawing)
+    for (const double rate : {0.1, 4.0}) {  // a disk collides some five times in a unit of time
+      Scene scene = lean_gas(4000, 0.5, Boundary::periodic);
+      redraw(scene, how, rate);
+      for (const std::size_t domains : {2U, 3U, 16U}) expect_same_runs(scene, {.domains = domains}, 3.0, 3);
+      scene.box.boundary = {Boundary::walls, Boundary::walls};
+      expect_same_runs(scene, {.threads = 3, .domains = 4}, 3.0, 2);
+    }
+}
+
+TEST(Threads, GiveTheBitsOfOneWhereVelocitiesAreRedrawnBesideOtherEffects) {
+  for (const Redrawing how : all_redrawing) {
+    Scene scene = mixture(3000);
+    redraw(scene, how, 1.0);
+    expect_same_runs(scene, {.domains = 4}, 8.0, 3);
+    scene = lean_gas(3000, 0.3, Boundary::walls);
+    scene.effects.gravity = Gravity{{0.0, -0.1}};
+    redraw(scene, how, 1.0);
+    expect_same_runs(scene, {.domains = 4}, 8.0, 3);
+    scene = lean_gas(3000, 0.3, Boundary::periodic);
+    scene.effects.square_well = SquareWell{.width = 1.6, .depth = 0.8};
+    redraw(scene, how, 1.0);
+    expect_same_runs(scene, {.domains = 3}, 6.0, 3);
+    scene = lean_gas(3000, 0.3, Boundary::periodic);
+    scene.effects.collision.restitution = 0.9;
+    scene.effects.collision.roughness = 0.3;
+    redraw(scene, how, 1.0);
+    expect_same_runs(scene, {.threads = 2, .domains = 4}, 6.0, 3);
+    scene.effects.growth = Growth{.rate = 0.01};  // spins are redrawn for the moment of inertia of that time
+    expect_same_runs(scene, {.domains = 3}, 6.0, 3);
+  }
+}
+
+/// Redraws at the time of every sample: a step that is a sum of powers of two is not rounded.
+TEST(Threads, GiveTheBitsOfOneWhereRedrawsAndStopsComeAtOneTime) {
+  Scene scene = lean_gas(4000, 0.5, Boundary::periodic);
+  redraw(scene, Redrawing::brownian, 4.0);
+  Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+  shared.set_threads({.domains = 4});
+  for (int k = 1; k <= 12; ++k) {
+    alone.run_until(0.25 * k);
+    shared.run_until(0.25 * k);
+    expect_same(alone, shared, "stop " + std::to_string(k));
+    EXPECT_EQ(shared.counts().thermostat, 4000U * static_cast<unsigned>(k));
+  }
+  EXPECT_LT(shared.thread_counts().shared_out, 6U) << "not once for each stop";
+}
+
+/// Disks from the bath are far faster than any was when the epoch began: halos must know, and epochs end early.
+TEST(Threads, GiveTheBitsOfOneInABathThatIsMuchHotter) {
+  for (const Redrawing how : {Redrawing::thermostat, Redrawing::brownian})
+    for (const double temperature : {1e2, 1e8}) {
+      Scene scene = lean_gas(4000, 0.4, Boundary::walls);
+      redraw(scene, how, temperature > 1e4 ? 0.02 : 1.0, temperature);
+      Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+      shared.set_threads({.domains = 4});
+      for (const double time : {0.5, 1.0}) {
+        alone.run_until(time);
+        shared.run_until(time);
+        expect_same(alone, shared, "kT " + std::to_string(temperature));
+      }
+    }
+}
+
+TEST(Threads, BeginAtRestWhereABathMovesDisks) {
+  for (const Redrawing how : {Redrawing::thermostat, Redrawing::brownian}) {
+    Scene scene = lean_gas(2000, 0.4, Boundary::periodic);
+    scene.species[0].velocities = MaxwellVelocities{0.0};
+    redraw(scene, how, 1.0);
+    Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+    shared.set_threads({.domains = 4});
+    for (const double time : {2.0, 6.0, 12.0}) {
+      alone.run_until(time);
+      shared.run_until(time);
+      expect_same(alone, shared, "time " + std::to_string(time));
+    }
+    EXPECT_GT(shared.thread_counts().windows, 10U);
+  }
+}
+
+/// A window that is void takes back the redraws in it, and their energy.
+TEST(Threads, MakeRedrawsOfVoidWindowsOnce) {
+  for (const Redrawing how : all_redrawing) {
+    Scene scene = lean_gas(6000, 0.5, Boundary::periodic);
+    redraw(scene, how, 2.0);
+    Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+    shared.set_threads({.domains = 4, .halo = 3.0, .events_per_window = 1.0});
+    for (const double time : {0.7, 4.0}) {
+      alone.run_until(time);
+      shared.run_until(time);
+      expect_same(alone, shared, "time " + std::to_string(time));
+    }
+    EXPECT_GT(shared.thread_counts().windows_redone, 0U);
+  }
+}
+
+TEST(Threads, StopAtExactNumbersBetweenRedraws) {
+  for (const Redrawing how : all_redrawing) {
+    Scene scene = lean_gas(4000, 0.5, Boundary::walls);
+    redraw(scene, how, 2.0);
+    Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+    shared.set_threads({.threads = 2, .domains = 4});
+    for (const std::uint64_t collisions : {1U, 3000U, 20001U, 20002U}) {
+      EXPECT_EQ(alone.run_until(1e6, {.collisions = collisions}), StopReason::collisions);
+      EXPECT_EQ(shared.run_until(1e6, {.collisions = collisions}), StopReason::collisions);
+      expect_same(alone, shared, std::to_string(collisions) + " collisions");
+    }
+    const std::uint64_t events = alone.counts().events() + 10'000;
+    EXPECT_EQ(alone.run_until(1e6, {.events = events}), StopReason::events);
+    EXPECT_EQ(shared.run_until(1e6, {.events = events}), StopReason::events);
+    expect_same(alone, shared, "events");
+    for (int step = 0; step < 20; ++step) {
+      const auto a = alone.step(), b = shared.step();
+      ASSERT_TRUE(a && b);
+      EXPECT_EQ(a->disk, b->disk);
+      EXPECT_EQ(a->partner, b->partner);
+    }
+    expect_same(alone, shared, "steps");
+  }
+}
+
+TEST(Threads, GoOnWithRedrawsFromWhatOtherNumbersOfThemHaveSaved) {
+  for (const Redrawing how : all_redrawing) {
+    Scene scene = lean_gas(4000, 0.5, Boundary::periodic);
+    redraw(scene, how, 1.0);
+    Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+    shared.set_threads({.domains = 4});
+    alone.run_until(5.0);
+    shared.run_until(1.9);
+    std::stringstream saved;
+    shared.save(saved);
+    Simulation one = restore_simulation(scene, saved);
+    one.run_until(3.1);
+    std::stringstream again;
+    one.save(again);
+    Simulation three = restore_simulation(scene, again);
+    three.set_threads({.domains = 3});
+    three.run_until(5.0);
+    expect_same(alone, three, "resumed");
+  }
+}
+
 /// Velocities are scaled each time that a disk has collided once on average, and lists are made for larger disks now and then.
 TEST(Threads, GiveTheBitsOfOneWhereDisksGrow) {
   Scene scene = lean_gas(4000, 0.3, Boundary::periodic);

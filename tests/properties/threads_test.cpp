@@ -53,6 +53,20 @@ Scene any_gas() {
   scene.species = {gas};
   scene.effects.collision.rule = *rc::gen::arbitrary<bool>() ? CollisionRule::specular : CollisionRule::reversal;
   if (*rc::gen::arbitrary<bool>()) scene.effects.growth = Growth{.rate = between(1, 100, 0.001)};
+  const double rate = between(1, 50, 0.1), temperature = between(1, 40, 0.1);
+  switch (*rc::gen::inRange(0, 6)) {
+    case 0:
+      scene.effects.thermostat = Thermostat{temperature, rate};
+      break;
+    case 1:
+      scene.effects.tumbling = Tumbling{rate};
+      break;
+    case 2:
+      scene.effects.brownian = Brownian{temperature, rate};
+      break;
+    default:
+      break;
+  }
   scene.run.seed = *rc::gen::inRange<std::uint64_t>(1, 1000);
   return scene;
 }
@@ -84,6 +98,8 @@ void expect_same_bits(const Scene& scene, Threads threads, int ranks, const std:
     RC_ASSERT(b.stale == a.stale);
     RC_ASSERT(b.virial == a.virial);
     RC_ASSERT(b.growth_energy == a.growth_energy);
+    RC_ASSERT(b.thermostat == a.thermostat);
+    RC_ASSERT(b.thermostat_energy == a.thermostat_energy);
     RC_ASSERT(b.numerics.epochs == a.numerics.epochs);
     time = alone.time();
   }
@@ -109,7 +125,6 @@ Scene any_effects() {
     try {
       Scene scene = parse_scene(decoded_scene(*bytes));
       Effects& effects = scene.effects;
-      effects.thermostat.reset();
       effects.shear.reset();
       for (WallProperties& wall : effects.walls) wall = {.restitution = wall.restitution};
       if (possible(scene, 20'000)) return scene;

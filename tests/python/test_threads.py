@@ -61,8 +61,8 @@ def test_threads_are_kept_by_copies_and_forgotten_by_pickles() -> None:
 
 
 def test_threads_are_refused_where_one_core_must_do() -> None:
-    sim = carom.Simulation(many_disks().set({"thermostat.temperature": 1.0, "thermostat.rate": 1.0}))
-    with pytest.raises(ValueError, match="this simulation runs on one core: the thermostat"):
+    sim = carom.Simulation(many_disks().set({"drag.rate": 1.0}))
+    with pytest.raises(ValueError, match="this simulation runs on one core: drag slows the clock"):
         sim.threads = 2
     assert sim.threads == 1
     for wrong, error in ((0, ValueError), (33, ValueError), ("two", TypeError)):

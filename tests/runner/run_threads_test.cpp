@@ -19,9 +19,9 @@ using ::testing::StartsWith;
 
 Scene lattice(std::int64_t disks) { return test::gas_scene(disks, 0.4, Boundary::periodic); }
 
-Scene with_thermostat() {
+Scene with_drag() {
   Scene scene = lattice(100);
-  scene.effects.thermostat = Thermostat{.temperature = 1.0, .rate = 1.0};
+  scene.effects.drag = Drag{.rate = 0.1};
   return scene;
 }
 
@@ -43,9 +43,9 @@ TEST(RunThreads, AreOneForEachFreeProcessorOfALargeRun) {
 }
 
 TEST(RunThreads, AreOneWhereASimulationCannotBeSharedOut) {
-  const SuggestedThreads suggested = suggested_threads(make_simulation(with_thermostat()), 8, 8);
+  const SuggestedThreads suggested = suggested_threads(make_simulation(with_drag()), 8, 8);
   EXPECT_EQ(suggested.threads, 1);
-  EXPECT_THAT(suggested.words, StartsWith("one core: the thermostat"));
+  EXPECT_THAT(suggested.words, StartsWith("one core: drag slows the clock"));
 }
 
 TEST(RunThreads, AreNeverMoreThanThereAreProcessors) {
@@ -68,23 +68,23 @@ TEST(RunThreads, ShareASimulationOutOrSayWhyNot) {
   set_threads_of_run(gas, {});
   EXPECT_EQ(gas.thread_counts().threads, 1U);
   EXPECT_THROW(set_threads_of_run(gas, 0), std::invalid_argument);
-  Simulation driven = make_simulation(with_thermostat());
-  set_threads_of_run(driven, 1);
+  Simulation dragged = make_simulation(with_drag());
+  set_threads_of_run(dragged, 1);
   try {
-    set_threads_of_run(driven, 2);
-    FAIL() << "a thermostat cannot be shared out";
+    set_threads_of_run(dragged, 2);
+    FAIL() << "drag cannot be shared out";
   } catch (const std::invalid_argument& error) {
-    EXPECT_THAT(error.what(), HasSubstr("only one core can compute this run, for the thermostat"));
+    EXPECT_THAT(error.what(), HasSubstr("only one core can compute this run, for drag slows the clock"));
   }
 }
 
 TEST(RunThreads, OfASceneWithObservablesMayBeTwoInAnyCase) {
-  Scene scene = with_thermostat();
+  Scene scene = with_drag();
   scene.observe.push_back({.name = "pressure"});
-  Simulation driven = make_simulation(scene);
-  set_threads_of_run(driven, 2);
-  EXPECT_EQ(driven.thread_counts().threads, 1U);
-  EXPECT_THROW(set_threads_of_run(driven, 3), std::invalid_argument);
+  Simulation dragged = make_simulation(scene);
+  set_threads_of_run(dragged, 2);
+  EXPECT_EQ(dragged.thread_counts().threads, 1U);
+  EXPECT_THROW(set_threads_of_run(dragged, 3), std::invalid_argument);
 }
 
 }  // namespace

@@ -47,6 +47,8 @@ inline void expect_same(const Simulation& alone, const Simulation& shared, const
   EXPECT_EQ(b.obstacle_impulse, a.obstacle_impulse) << where;
   EXPECT_EQ(b.dissipated, a.dissipated) << where;
   EXPECT_EQ(b.growth_energy, a.growth_energy) << where;
+  EXPECT_EQ(b.thermostat, a.thermostat) << where;
+  EXPECT_EQ(b.thermostat_energy, a.thermostat_energy) << where;
   EXPECT_EQ(b.well, a.well) << where;
   EXPECT_EQ(shared.state().bonds, alone.state().bonds) << where;
   EXPECT_EQ(b.numerics.epochs, a.numerics.epochs) << where;
