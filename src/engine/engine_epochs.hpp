@@ -144,18 +144,29 @@ void LoopState<Impact, Layout, World>::reset_falling_frame() {
   rebuild(frame_.half_width);
 }
 
+template <class Impact, class Layout, class World>
+double LoopState<Impact, Layout, World>::room_of_lines(int axis, double t) const {
+  double out = 0.0;
+  if constexpr (!World::plain)
+    out = std::max(world_.walls.displacement(wall_of(axis, false), t), world_.walls.displacement(wall_of(axis, true), t));
+  return 4.0 * (flight_.length(axis) / 2.0 + out + free_path * sizes_.spacing);
+}
+
+template <class Impact, class Layout, class World>
+bool LoopState<Impact, Layout, World>::may_widen_coordinates(double t) const {
+  if constexpr (!World::plain)
+    for (int k = 0; k < 2; ++k)
+      if (!flight_.axis(k).periodic && !(room_of_lines(k, t) * (1.0 + 0x1p-20) <= room_of_coordinates(k))) return true;
+  return false;
+}
+
 /// A line has the length of the box and some spacings of room on either side. When walls have used up half of that, coordinates
 /// are made coarser: by a power of two, so that nothing but their last digits changes.
 template <class Impact, class Layout, class World>
 void EventLoop<Impact, Layout, World>::widen_coordinates() {
   bool wider = false;
   for (int k = 0; k < 2; ++k) {
-    if (flight_.axis(k).periodic) continue;
-    const double out =
-        std::max(world_.walls.displacement(wall_of(k, false), 0.0), world_.walls.displacement(wall_of(k, true), 0.0));
-    const double length = flight_.length(k);
-    const double range = 0x1p63 * flight_.axis(k).unit;  // from the middle
-    if (4.0 * (length / 2.0 + out + free_path * sizes_.spacing) <= range * 2.0) continue;
+    if (flight_.axis(k).periodic || this->room_of_lines(k, 0.0) <= this->room_of_coordinates(k)) continue;
     flight_.coarsen(k, lines_);
     frame_.unit[k] = flight_.axis(k).unit;
     frame_.steps[k] = flight_.axis(k).steps;

@@ -93,7 +93,7 @@ class Domains {
     window,
     epoch,
     arrived,   ///< at the target
-    balance,   ///< borders are to be moved
+    balance,   ///< borders are to be moved, or coordinates made coarser
     counted,   ///< as many collisions or events as were asked for have happened
     outgrown,  ///< disks have become too large for their lists
     void_one,  ///< the window was void
@@ -209,10 +209,14 @@ class Domains {
   void count_collisions();
   void step_to_limit();
   void decide();
+  void begin_epoch_next();
   void adapt_window(double margin, bool whole_window);
   void lead_epoch();
   void end_of_epoch();
-  void watch_speeds(const SpeedCensus& speeds) { fastest_ = 1.5 * std::max(speeds.fastest[0], speeds.fastest[1]); }
+  void watch_speeds(const SpeedCensus& speeds) {
+    fastest_ = 1.5 * std::max(speeds.fastest[0], speeds.fastest[1]);
+    if constexpr (!World::plain) fastest_ += 2.0 * whole_.world_.walls.fastest(0.0);
+  }
   void hand_over_records();
   void count_steps() {
     if constexpr (!Impact::plain)

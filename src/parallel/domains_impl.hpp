@@ -105,6 +105,7 @@ void Domains<Impact, Layout, World>::redraw_alone() {
 /// Begins an epoch as Engine::scale_velocities() does: all at the same time, each domain its disks.
 template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::scale_velocities(double factor) {
+  if (whole_.may_widen_coordinates(now_)) gather();
   if (!shared_) return engine_.scale_velocities(factor);
   factor_ = factor;
   end_ = now();
@@ -515,12 +516,21 @@ void Domains<Impact, Layout, World>::decide() {
     if (pairs == pair_limit_ || (on_the_way && happened - events_before_ >= event_limit_))
       next_ = Next::counted;
     else if (now_ == whole_.epoch_length_)
-      next_ = Next::epoch;
+      begin_epoch_next();
     else if (now_ == target_)
       next_ = Next::arrived;
     else
       begin_window();
   }
+}
+
+/// Lets an epoch begin in all domains, or in the whole engine alone where walls have gone so far that coordinates change.
+template <class Impact, class Layout, class World>
+void Domains<Impact, Layout, World>::begin_epoch_next() {
+  next_ = Next::epoch;
+  if (!whole_.may_widen_coordinates(now_)) return;
+  next_ = Next::balance;
+  alone_until_ = whole_.epoch_.plus(now_);
 }
 
 /// Gives the records of all domains to the recorder of the whole engine, in order of time.

@@ -1,7 +1,6 @@
 #include <carom/threads.hpp>
 
 #include "scene/effect_traits.hpp"
-#include "scene/walls.hpp"
 #include "simulation/catalogue.hpp"
 #include "simulation/parts.hpp"
 
@@ -64,7 +63,7 @@ std::string why_not_threads(const Effects& effects, const Disks& disks) {
       return "sizes differ so much that a disk may have too many others within reach of the potential";
   }
   for (const WallProperties& wall : effects.walls) {
-    if (moves(wall)) return "a wall moves";
+    if (wall.mass) return "a piston moves by the contacts of all disks";
     if (wall.temperature) return "a wall with a temperature draws the velocities of all disks in one order";
   }
   return {};

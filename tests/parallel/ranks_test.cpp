@@ -76,6 +76,12 @@ TEST(Ranks, GiveTheBitsOfOneForScenesOfAllKinds) {
   Scene brownian = lean_gas(3000, 0.3, Boundary::walls);
   brownian.effects.brownian = Brownian{1.0, 2.0};
   expect_same_runs_on(4, brownian, {}, 6.0, 3, "Brownian");
+  Scene shaken = cooling;
+  shaken.box.boundary = {Boundary::walls, Boundary::walls};
+  shaken.effects.gravity = Gravity{{0.0, -0.5}};
+  shaken.effects.walls[2].oscillation = Oscillation{WaveForm::sine, 0.4, 1.5};
+  shaken.effects.walls[3].oscillation = Oscillation{WaveForm::sawtooth, 1.0, 0.5};
+  expect_same_runs_on(3, shaken, {.threads = 2}, 10.0, 3, "shaken");
   Scene unlike = mixture(3000);
   unlike.effects.non_additivity = NonAdditivity{-0.2};
   expect_same_runs_on(3, unlike, {}, 8.0, 3, "non-additive");

@@ -113,6 +113,41 @@ TEST(Threads, ArePutAsideWhereADiskMayHaveMorePartnersThanAMessageHolds) {
   EXPECT_EQ(make_simulation(scene).why_not_threads(), "");
 }
 
+TEST(Threads, GiveTheBitsOfOneBetweenWallsThatVibrate) {
+  Scene scene = lean_gas(3000, 0.4, Boundary::walls);
+  scene.effects.collision.restitution = 0.9;
+  scene.effects.collision.elastic_below = 1e-3;
+  scene.effects.gravity = Gravity{{0.0, -0.5}};
+  for (const WaveForm form : {WaveForm::sine, WaveForm::sawtooth}) {
+    scene.effects.walls[2] = {.restitution = 0.95, .oscillation = Oscillation{form, 0.4, 1.5}};
+    expect_same_runs(scene, {.threads = 2, .domains = 4}, 10.0, 4);
+    scene.effects.walls[0] = {.oscillation = Oscillation{form, 2.0, 0.3, 0.6}};
+    expect_same_runs(scene, {.domains = 3}, 10.0, 3);
+  }
+  scene.effects.walls[1] = scene.effects.walls[2] = {.vibration = 0.8};
+  expect_same_runs(scene, {.domains = 8}, 10.0, 3);
+}
+
+/// Walls that go far beyond the box, where coordinates become coarser, and one that presses the gas together.
+TEST(Threads, GiveTheBitsOfOneBetweenWallsThatMove) {
+  Scene scene = lean_gas(3000, 0.4, Boundary::walls);
+  scene.effects.walls[1].velocity = 3.0;
+  scene.effects.walls[2].velocity = -1.0;
+  Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+  shared.set_threads({.threads = 2, .domains = 4});
+  for (const double time : {5.0, 40.0, 200.0}) {
+    alone.run_until(time);
+    shared.run_until(time);
+    expect_same(alone, shared, "time " + std::to_string(time));
+    EXPECT_EQ(shared.state().walls.at(1).position, alone.state().walls.at(1).position);
+  }
+  EXPECT_GT(shared.state().walls.at(1).position, 8.0 * scene.box.upper[0]);
+  EXPECT_GT(shared.thread_counts().windows, 10U);
+  scene.effects.walls[1].velocity = -0.5;
+  scene.effects.walls[2].velocity = 0.0;
+  expect_same_runs(scene, {.domains = 3}, 30.0, 3);
+}
+
 /// The redraws of velocities that a scene may have.
 enum class Redrawing { thermostat, tumbling, brownian };
 constexpr Redrawing all_redrawing[] = {Redrawing::thermostat, Redrawing::tumbling, Redrawing::brownian};
