@@ -128,6 +128,21 @@ TEST(Threads, GiveTheBitsOfOneBetweenWallsThatVibrate) {
   expect_same_runs(scene, {.domains = 8}, 10.0, 3);
 }
 
+/// In the epoch that begins at time 8 the domain at the left gets more disks than it has room for, and all goes back to the
+/// beginning of the epoch: what the domain could not read by then makes no plan stale.
+TEST(Threads, GoBackToTheRightPlansWhereADomainHasNoRoom) {
+  Scene scene = lean_gas(3000, 0.4, Boundary::walls);
+  scene.effects.collision.restitution = 0.9;
+  scene.effects.gravity = Gravity{{0.0, -0.5}};
+  scene.effects.walls[2] = {.restitution = 0.95, .oscillation = Oscillation{WaveForm::sine, 0.4, 1.5}};
+  Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+  shared.set_threads({.domains = 2});
+  alone.run_until(8.3);
+  shared.run_until(8.3);
+  expect_same(alone, shared, "no room");
+  EXPECT_GT(shared.thread_counts().windows_redone, 0U);
+}
+
 /// Walls that go far beyond the box, where coordinates become coarser, and one that presses the gas together.
 TEST(Threads, GiveTheBitsOfOneBetweenWallsThatMove) {
   Scene scene = lean_gas(3000, 0.4, Boundary::walls);
