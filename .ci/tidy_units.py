@@ -22,7 +22,9 @@ LEFT_OUT = re.compile(r"_avx|_texts\.cpp|build_info|lean_reversal|make_mixed|tex
 # These instantiate whole engines; and these are short and include headers that hold one of them at a time.
 ENGINE = re.compile(r"/(fixed_step|lean_\w+|make_\w+|textbook_\w+)\.cpp$")
 KERNEL = "/kernels/"
-# So many units at least, of about one size, for as many processors. Larger ones take longer than their parts.
+# For each parameter of CLI11 that is a copy performance-unnecessary-value-param looks through the whole unit: 45 s where it is large.
+PARSER = "<CLI/CLI.hpp>"
+# So many units at least, of about one size, for as many processors.
 UNITS = {"product": 8, "tests": 4}
 
 # What a file defines in its anonymous namespaces, as its layout tells; and its macros.
@@ -167,6 +169,8 @@ def main():
             kind, names, path = "tests", {}, apart(path, source, together)
         else:
             kind = "product_engines" if ENGINE.search(str(path)) else "product_kernels" if KERNEL in str(path) else "product"
+            if PARSER in path.read_text():
+                kind = "product_parser"
             names = names_of(path)
         overloaded = set()
         if not functions.isdisjoint(names):
