@@ -15,9 +15,9 @@ struct ValidateCommandOptions {
   bool quick = false;  ///< the default, without --full
   bool full = false;
   std::int64_t seed = 1;
-  std::vector<std::string> only;  ///< names of trials; empty: all
-  std::optional<int> threads;     ///< number of trials at a time; empty: one per processor
-  std::string out;                ///< empty: validation
+  std::vector<std::string> only;    ///< names of trials; empty: all
+  std::optional<int> threads = {};  ///< number of trials at a time; empty: one per processor
+  std::string out;                  ///< empty: validation
   bool list = false;
   bool force = false;
   bool resume = false;
