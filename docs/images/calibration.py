@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 """Are the error bars of `carom validate` right? Draws the deviations z of all exact checks over many seeds.
 
-    docs/images/calibration.py PROGRAM [DIRECTORY [SEEDS]]
+    docs/images/calibration.py PROGRAM [DIRECTORY [SEEDS [GROUP]]]
 
 Runs `PROGRAM validate --seed K --out DIRECTORY/K` for K = 1 to SEEDS (20; or a list, 1,2,5), without the trials that calibration.csv
 beside this file or DIRECTORY (calibration) holds already of that seed, and goes on with one that was interrupted. Adds what it finds to
 calibration.csv: remove a trial from that file where its checks have changed. Takes the checks that calibrate (see docs/output.md): z
 of these must be normal with variance 1. Prints how well they are, by group and by state of the equation of state too, and writes
-calibration.svg beside this file. Needs python3-matplotlib.
+calibration.svg beside this file. With a GROUP, such as "equation of state", it runs and judges that group's trials alone, and draws
+nothing. Needs python3-matplotlib.
 """
 import csv
 import json
@@ -27,6 +28,7 @@ directory = pathlib.Path(sys.argv[2] if len(sys.argv) > 2 else "calibration")
 wanted = sys.argv[3] if len(sys.argv) > 3 else "20"
 wanted = [int(seed) for seed in wanted.split(",")] if "," in wanted else range(1, int(wanted) + 1)
 seeds = len(wanted)
+only_group = sys.argv[4] if len(sys.argv) > 4 else None
 
 # Of every check of every seed: the trial and its number there, whether it calibrates and holds, and z.
 kept_file = pathlib.Path(__file__).resolve().parent / "calibration.csv"
@@ -37,9 +39,15 @@ if kept_file.exists():
             kept.setdefault(int(row["seed"]), []).append(row)
 
 # Trials of a quick validation, one a line under the name of their group. Those without a verdict have no rows.
-listed = subprocess.run([program, "validate", "--list"], capture_output=True, check=True, text=True).stdout.splitlines()
-trials = [line.strip() for line in listed if line.startswith("  ") and not line.endswith("(--full)")]
-trials = [trial for trial in trials if not trial.startswith(("transport-", "naive-", "grid-"))]
+listed = subprocess.run([program, "validate", "--list"], capture_output=True, check=True, text=True).stdout
+groups = {}
+for lines in listed.strip().split("\n\n"):
+    group, *names = lines.splitlines()
+    names = [name.strip() for name in names if not name.endswith("(--full)")]
+    groups[group] = [name for name in names if not name.startswith(("transport-", "naive-", "grid-"))]
+if only_group is not None and only_group not in groups:
+    sys.exit(f"{only_group}: there is no such group; there are {', '.join(groups)}")
+trials = [name for group, names in groups.items() if only_group in (None, group) for name in names]
 
 directory.mkdir(exist_ok=True)
 for seed in wanted:
@@ -71,9 +79,10 @@ for seed in wanted:
 by_check = {}
 judged = failed = 0
 for seed in wanted:
-    judged += len(kept[seed])
-    failed += sum(int(row["holds"]) == 0 for row in kept[seed])
-    for row in kept[seed]:
+    rows = [row for row in kept[seed] if row["trial"] in trials]
+    judged += len(rows)
+    failed += sum(int(row["holds"]) == 0 for row in rows)
+    for row in rows:
         if int(row["calibrates"]):
             by_check.setdefault((row["trial"], row["check"]), []).append(float(row["z"]))
 by_check = {name: z for name, z in by_check.items() if len(z) == seeds}
@@ -116,16 +125,14 @@ def chance_interval(freedom):
 def chi_squared_by_group():
     """Prints chi squared over the number of deviations for each group, and for each state of the equation of state: of every trial the
     first check that calibrates, as `carom validate` counts."""
-    listed = subprocess.run([program, "validate", "--list"], check=True, capture_output=True, text=True).stdout
     first = {}
     for trial, number in by_check:
         if trial not in first or int(number) < int(first[trial]):
             first[trial] = number
     even = seeds - seeds % 2
     print("| group | deviations | chi squared over their number | chance, 19 of 20 cases |\n|---|---|---|---|")
-    for lines in listed.strip().split("\n\n"):
-        group, *trials = lines.splitlines()
-        names = [name for name in (line.split()[0] for line in trials) if name in first]
+    for group, trials_of_group in groups.items():
+        names = [name for name in trials_of_group if name in first]
         squares = {name: sum(z * z for z in by_check[name, first[name]][:even]) for name in names}
         if not names:
             continue
@@ -157,6 +164,8 @@ if seeds % 2 == 0:
         print(f"  {square:.2f} (probability to exceed it {p:.2g}): {trial}, check {number}")
 
 chi_squared_by_group()
+if only_group is not None:
+    sys.exit()
 
 figure, axes = plt.subplots(figsize=(6.0, 3.6))
 edges = [-4.0 + 0.25 * k for k in range(33)]
