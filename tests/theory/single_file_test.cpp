@@ -85,23 +85,6 @@ TEST(SingleFile, OfSixDisksIsTheIntegralOverTheirHeights) {
               1e-6);
 }
 
-TEST(SingleFile, OfAFewDisksWithStepsHasForcesAndEnergyThatAreSlopesOfOneFreeEnergy) {
-  constexpr double h = 0.6, length = 1.1, step = 1e-4;
-  const std::vector<PotentialStep> two_steps = {{1.2, 0.9}, {1.59, -0.7}};
-  const auto at = [&](double l, double range, double beta) {
-    std::vector<PotentialStep> scaled = two_steps;
-    for (PotentialStep& one : scaled) one.energy *= beta;
-    return single_file(1.0 + range, l, 12, scaled);
-  };
-  const auto slope = [&](auto&& f) { return (f(step) - f(-step)) / (2.0 * step); };
-  EXPECT_NEAR(slope([&](double d) { return at(length, h + d, 1.0).force; }),
-              slope([&](double d) { return at(length + d, h, 1.0).wall_pressure * (length + d); }), 1e-5);
-  EXPECT_NEAR(slope([&](double d) { return at(length + d, h, 1.0).energy; }),
-              -slope([&](double d) { return at(length, h, 1.0 + d).force; }), 1e-5);
-  EXPECT_NEAR(slope([&](double d) { return at(length, h + d, 1.0).energy; }),
-              -slope([&](double d) { return at(length, h, 1.0 + d).wall_pressure * length; }), 1e-5);
-}
-
 TEST(SingleFile, OfManyDisksIsThatOfInfinitelyMany) {
   // Corrections fall as 1/N.
   for (const auto& potential : {std::vector<PotentialStep>{}, std::vector<PotentialStep>{{1.4, -0.5}}}) {
@@ -176,18 +159,20 @@ TEST(SingleFile, OfFewDisksWithStepsHasTheirSecondVirialCoefficient) {
 TEST(SingleFile, ForcesAndEnergyOfStepsAreSlopesOfOneFreeEnergy) {
   // ln Z per disk is a function f(l, h, beta) with slopes p, l P and -u. Central differences err by step^2.
   constexpr double h = 0.6, length = 1.1, step = 1e-4;
-  const auto at = [&](double l, double range, double beta) {
-    std::vector<PotentialStep> scaled = steps;
-    for (PotentialStep& one : scaled) one.energy *= beta;
-    return single_file(1.0 + range, l, scaled);
-  };
-  const auto slope = [&](auto&& f) { return (f(step) - f(-step)) / (2.0 * step); };
-  EXPECT_NEAR(slope([&](double d) { return at(length, h + d, 1.0).force; }),
-              slope([&](double d) { return at(length + d, h, 1.0).wall_pressure * (length + d); }), 1e-5);
-  EXPECT_NEAR(slope([&](double d) { return at(length + d, h, 1.0).energy; }),
-              -slope([&](double d) { return at(length, h, 1.0 + d).force; }), 1e-5);
-  EXPECT_NEAR(slope([&](double d) { return at(length, h + d, 1.0).energy; }),
-              -slope([&](double d) { return at(length, h, 1.0 + d).wall_pressure * length; }), 1e-5);
+  for (const bool few : {false, true}) {
+    const auto at = [few](double l, double range, double beta) {
+      std::vector<PotentialStep> scaled = steps;
+      for (PotentialStep& one : scaled) one.energy *= beta;
+      return few ? single_file(1.0 + range, l, 12, scaled) : single_file(1.0 + range, l, scaled);
+    };
+    const auto slope = [](auto&& f) { return (f(step) - f(-step)) / (2.0 * step); };
+    EXPECT_NEAR(slope([&](double d) { return at(length, h + d, 1.0).force; }),
+                slope([&](double d) { return at(length + d, h, 1.0).wall_pressure * (length + d); }), 1e-5);
+    EXPECT_NEAR(slope([&](double d) { return at(length + d, h, 1.0).energy; }),
+                -slope([&](double d) { return at(length, h, 1.0 + d).force; }), 1e-5);
+    EXPECT_NEAR(slope([&](double d) { return at(length, h + d, 1.0).energy; }),
+                -slope([&](double d) { return at(length, h, 1.0 + d).wall_pressure * length; }), 1e-5);
+  }
 }
 
 TEST(SingleFile, StepsThatReachSecondNeighboursAreRefused) {
