@@ -1,6 +1,7 @@
 #include "studies/validate/check.hpp"
 
-#include <boost/math/distributions/normal.hpp>
+#include "theory/goodness_of_fit.hpp"
+
 #include <boost/math/distributions/students_t.hpp>
 
 #include <algorithm>
@@ -22,7 +23,7 @@ double in_errors(double difference, double error) {
 double normal_for(double t, double freedom) {
   if (!std::isfinite(t) || !std::isfinite(freedom)) return t;
   const double beyond = cdf(complement(boost::math::students_t(freedom), std::abs(t)));
-  return beyond > 0.0 ? std::copysign(quantile(complement(boost::math::normal(), beyond)), t) : t;
+  return std::copysign(theory::standard_errors(2.0 * beyond), t);
 }
 
 }  // namespace
