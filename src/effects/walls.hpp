@@ -129,11 +129,16 @@ class Walls {
   }
   /// The fastest that any of the sides moves at time t, or in any of its periods.
   [[nodiscard]] Real fastest(Real t) const {
-    using std::abs;
     Real most = 0;
-    for (const Side& s : sides_)
-      most = std::max<Real>(most, s.oscillation.present() ? s.oscillation.fastest() : abs(s.velocity_at(t)));
+    for (const Side& s : sides_) most = std::max<Real>(most, s.fastest(t));
     return most;
+  }
+
+  /// The most speed that a contact with any of the sides gives to a disk, at time t or in any of its periods.
+  [[nodiscard]] Real strongest_blow(Real t) const {
+    Real most = 0;
+    for (const Side& s : sides_) most = std::max<Real>(most, s.fastest(t) + s.vibration);
+    return 2 * most;
   }
 
   /// The strongest acceleration of any of the sides that can go far by it.
@@ -234,6 +239,10 @@ class Walls {
     }
     [[nodiscard]] Real velocity_at(Real when) const {
       return oscillation.present() ? oscillation.velocity(when) : velocity + acceleration * (when - t);
+    }
+    [[nodiscard]] Real fastest(Real when) const {
+      using std::abs;
+      return oscillation.present() ? oscillation.fastest() : abs(velocity_at(when));
     }
     [[nodiscard]] Real acceleration_at(Real when) const {
       return oscillation.present() ? oscillation.acceleration(when) : acceleration;

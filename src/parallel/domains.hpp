@@ -213,9 +213,13 @@ class Domains {
   void adapt_window(double margin, bool whole_window);
   void lead_epoch();
   void end_of_epoch();
-  void watch_speeds(const SpeedCensus& speeds) {
-    fastest_ = 1.5 * std::max(speeds.fastest[0], speeds.fastest[1]);
-    if constexpr (!World::plain) fastest_ += 2.0 * whole_.world_.walls.fastest(0.0);
+  void watch_speeds(const SpeedCensus& speeds) { fastest_ = most_from(std::max(speeds.fastest[0], speeds.fastest[1])); }
+  /// Returns more than any speed that comes from these in the rest of the epoch, as good as surely.
+  [[nodiscard]] double most_from(double fastest) const {
+    if constexpr (World::plain)
+      return 1.5 * fastest;
+    else
+      return 1.5 * fastest + whole_.world_.walls.strongest_blow(0.0);
   }
   void hand_over_records();
   void count_steps() {

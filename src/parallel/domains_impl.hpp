@@ -335,7 +335,7 @@ void Domains<Impact, Layout, World>::draw_redraws() {
   });
   most_redraws_ = due_.size();
   if (due_.size() >= most) window_end_ = longest_end_ = time_of(due_.back());
-  if (first()) fastest_ = std::max(fastest_, redraws_->fastest(due_));
+  if (first()) fastest_ = std::max(fastest_, most_from(redraws_->fastest(due_)));
 }
 
 /// Counts the redraws of a window that was right.
