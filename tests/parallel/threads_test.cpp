@@ -222,19 +222,26 @@ TEST(Threads, GiveTheBitsOfOneWhereRedrawsAndStopsComeAtOneTime) {
   EXPECT_LT(shared.thread_counts().shared_out, 6U) << "not once for each stop";
 }
 
+/// Compares a scene that is shared out with one core at these times. Returns what sharing it out took.
+ThreadCounts expect_same_at(const std::vector<double>& times, const Scene& scene, const Threads& threads) {
+  Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+  shared.set_threads(threads);
+  for (const double time : times) {
+    alone.run_until(time);
+    shared.run_until(time);
+    expect_same(alone, shared, "time " + std::to_string(time));
+  }
+  return shared.thread_counts();
+}
+
 /// Disks from the bath are far faster than any was when the epoch began: halos must know, and epochs end early.
 TEST(Threads, GiveTheBitsOfOneInABathThatIsMuchHotter) {
   for (const Redrawing how : {Redrawing::thermostat, Redrawing::brownian})
     for (const double temperature : {1e2, 1e8}) {
       Scene scene = lean_gas(4000, 0.4, Boundary::walls);
       redraw(scene, how, temperature > 1e4 ? 0.02 : 1.0, temperature);
-      Simulation alone = make_simulation(scene), shared = make_simulation(scene);
-      shared.set_threads({.domains = 4});
-      for (const double time : {0.5, 1.0}) {
-        alone.run_until(time);
-        shared.run_until(time);
-        expect_same(alone, shared, "kT " + std::to_string(temperature));
-      }
+      SCOPED_TRACE("kT " + std::to_string(temperature));
+      expect_same_at({0.5, 1.0}, scene, {.domains = 4});
     }
 }
 
@@ -243,14 +250,7 @@ TEST(Threads, BeginAtRestWhereABathMovesDisks) {
     Scene scene = lean_gas(2000, 0.4, Boundary::periodic);
     scene.species[0].velocities = MaxwellVelocities{0.0};
     redraw(scene, how, 1.0);
-    Simulation alone = make_simulation(scene), shared = make_simulation(scene);
-    shared.set_threads({.domains = 4});
-    for (const double time : {2.0, 6.0, 12.0}) {
-      alone.run_until(time);
-      shared.run_until(time);
-      expect_same(alone, shared, "time " + std::to_string(time));
-    }
-    EXPECT_GT(shared.thread_counts().windows, 10U);
+    EXPECT_GT(expect_same_at({2.0, 6.0, 12.0}, scene, {.domains = 4}).windows, 10U);
   }
 }
 
@@ -259,14 +259,8 @@ TEST(Threads, MakeRedrawsOfVoidWindowsOnce) {
   for (const Redrawing how : all_redrawing) {
     Scene scene = lean_gas(6000, 0.5, Boundary::periodic);
     redraw(scene, how, 2.0);
-    Simulation alone = make_simulation(scene), shared = make_simulation(scene);
-    shared.set_threads({.domains = 4, .halo = 3.0, .events_per_window = 1.0});
-    for (const double time : {0.7, 4.0}) {
-      alone.run_until(time);
-      shared.run_until(time);
-      expect_same(alone, shared, "time " + std::to_string(time));
-    }
-    EXPECT_GT(shared.thread_counts().windows_redone, 0U);
+    const ThreadCounts counts = expect_same_at({0.7, 4.0}, scene, {.domains = 4, .halo = 3.0, .events_per_window = 1.0});
+    EXPECT_GT(counts.windows_redone, 0U);
   }
 }
 
