@@ -31,6 +31,7 @@ struct Redraw {
   ThermostatEvent event;
 };
 
+/// The redraws of one run: those that come next, and what has been done so far.
 class Redraws {
  public:
   /// `disks` must outlive this.
@@ -71,11 +72,11 @@ class Redraws {
   void go_on_at(std::uint64_t number, const Instant& time) { go_on(number, draw(number), time); }
   /// Goes on behind the last redraw of an event.
   void go_on_after(const Redraw& done) { go_on(done.number + 1, done.time); }
-  /// Whether the next event is to happen in a run to `target`, which ends the run before it where it comes at the time of an
+  /// Returns whether the next event is to happen in a run to `target`, which ends the run before it where it comes at the time of an
   /// end.
   [[nodiscard]] bool due_by(const Instant& target) const { return due_at(time_, target); }
   [[nodiscard]] bool due_at(const Instant& time, const Instant& target) const { return !(target < time) && time < end_; }
-  /// The time at which a run ends for another reason, which comes before any redraw.
+  /// Returns the time at which a run ends for another reason, which comes before any redraw.
   [[nodiscard]] Instant end() const { return end_; }
   void set_end(const Instant& end) { end_ = end; }
   /// The clock's zero moves to `zero`.
@@ -124,7 +125,7 @@ class Redraws {
     return fastest;
   }
 
-  /// The scale of radii, by which spins are drawn.
+  /// Returns the scale of radii, by which spins are drawn.
   [[nodiscard]] const GrowingScale& scale() const { return scale_; }
   void set_scale(const GrowingScale& scale) { scale_ = scale; }
 

@@ -134,7 +134,7 @@ class Walls {
     return most;
   }
 
-  /// The most speed that a contact with any of the sides gives to a disk, at time t or in any of its periods.
+  /// Returns the most speed that a contact with any of the sides gives to a disk, at time t or in any of its periods.
   [[nodiscard]] Real strongest_blow(Real t) const {
     Real most = 0;
     for (const Side& s : sides_) most = std::max<Real>(most, s.fastest(t) + s.vibration);
@@ -240,6 +240,7 @@ class Walls {
     [[nodiscard]] Real velocity_at(Real when) const {
       return oscillation.present() ? oscillation.velocity(when) : velocity + acceleration * (when - t);
     }
+    /// Returns the fastest that the side moves at that time, or in any of its periods.
     [[nodiscard]] Real fastest(Real when) const {
       using std::abs;
       return oscillation.present() ? oscillation.fastest() : abs(velocity_at(when));
