@@ -72,7 +72,7 @@ class Redraws {
   void go_on_at(std::uint64_t number, const Instant& time) { go_on(number, draw(number), time); }
   /// Goes on behind the last redraw of an event.
   void go_on_after(const Redraw& done) { go_on(done.number + 1, done.time); }
-  /// Returns whether the next event is to happen in a run to `target`, which ends the run before it where it comes at the time of an
+  /// Returns whether the next event is to happen in a run to `target`. The run ends before it where it comes at the time of an
   /// end.
   [[nodiscard]] bool due_by(const Instant& target) const { return due_at(time_, target); }
   [[nodiscard]] bool due_at(const Instant& time, const Instant& target) const { return !(target < time) && time < end_; }
