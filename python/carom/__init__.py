@@ -41,6 +41,7 @@ if _TYPE_CHECKING:
         validate,
         validation_trials,
     )
+    from carom.structure import clusters, voronoi
     from carom.sweeps import Sweep, sweep
 
 #: Names by the module that is imported where one of them is first asked for: a simulation needs none of these.
@@ -66,6 +67,7 @@ _LATER = {
         "validate",
         "validation_trials",
     ),
+    "structure": ("clusters", "voronoi"),
     "sweeps": ("Sweep", "sweep"),
 }
 _MODULES = {name: module for module, names in _LATER.items() for name in names}
@@ -118,6 +120,7 @@ __all__ = [
     "Validation",
     "beside",
     "build",
+    "clusters",
     "compare",
     "diff",
     "engines",
@@ -135,4 +138,5 @@ __all__ = [
     "sweep",
     "validate",
     "validation_trials",
+    "voronoi",
 ]

@@ -57,6 +57,7 @@ NB_MODULE(_core, module) {
   add_state(module);
   add_simulation(module);
   add_blocking(module);
+  add_structure(module);
 }
 
 }  // namespace carom::python

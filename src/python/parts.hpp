@@ -11,6 +11,7 @@ void add_scene(nanobind::module_& module);
 void add_state(nanobind::module_& module);
 void add_simulation(nanobind::module_& module);
 void add_blocking(nanobind::module_& module);
+void add_structure(nanobind::module_& module);
 
 // carom._files
 void add_descriptions(nanobind::module_& module);
