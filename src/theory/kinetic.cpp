@@ -256,14 +256,31 @@ double diffusion_growth(double eta, std::int64_t disks, double from, double to) 
 double cooling_sonine(double e) { return 16.0 * (1.0 - e) * (1.0 - 2.0 * e * e) / (57.0 - 25.0 * e + 30.0 * e * e * (1.0 - e)); }
 
 double haff_rate(double e, double eta, std::int64_t disks) {
-  return (1.0 - e * e) / 4.0 * disk_collision_rate(kolafa_rottner_finite(eta, disks)) * (1.0 + 3.0 / 16.0 * cooling_sonine(e)) *
-         Microcanonical(disks, true).moment_factor(3.0);
+  const auto N = static_cast<double>(disks);
+  const double loss = 1.0 - e * e;
+  // The disks share (N - 1) kT. A collision takes kT loss of it on average, with twice the square of that as mean square: the
+  // mean of T^-1/2 grows by 3/2 loss / N more than in small steps.
+  return loss / 4.0 * disk_collision_rate(kolafa_rottner_finite(eta, disks)) * N / (N - 1.0) *
+         (1.0 + 3.0 / 16.0 * cooling_sonine(e)) * Microcanonical(disks, true).moment_factor(3.0) * (1.0 + 1.5 * loss / N);
 }
 
 double shear_instability(double e, double eta) {
   // k^2 = (2 pi)^2 rho / N, and rho nu is the viscosity.
   const double rate = (1.0 - e * e) / 4.0 * disk_collision_rate(kolafa_rottner(eta));
   return 4.0 * pi * pi * enskog_viscosity(eta) / rate;
+}
+
+double haff_slowing(double e, double eta, std::int64_t disks) {
+  const double N = static_cast<double>(disks), limit = shear_instability(e, eta);
+  const double longest = 2.0 * pi * mean_free_path(eta) / std::sqrt(N / density(eta));  // k of the longest wave, times the path
+  const auto reach = static_cast<std::int64_t>(1.0 / longest);
+  double excess = 0.0;
+  for (std::int64_t i = -reach; i <= reach; ++i)
+    for (std::int64_t j = -reach; j <= reach; ++j) {
+      const auto square = static_cast<double>(i * i + j * j);
+      if (square > 0.0 && square * longest * longest < 1.0) excess += N / (square * limit - N);
+    }
+  return 1.5 * excess / (2.0 * N);
 }
 
 double cooling_kurtosis(double e) { return 2.0 * (1.0 + cooling_sonine(e)); }

@@ -103,14 +103,21 @@ struct Component {
 /// Noije & Ernst, Granular Matter 1, 57 (1998)), here for disks.
 [[nodiscard]] double cooling_sonine(double restitution);
 
-/// Returns 1 / t_H of Haff's law T(t) = T(0) / (1 + t / t_H)^2 for kT(0) = 1 and this number of disks in a periodic box: (1 -
-/// e^2) omega / 4, omega the rate that belongs to the pressure of this many disks, with what a2 (1 + 3 a2 / 16) and the fixed
-/// energy make of the mean cube of the relative speed. Requires eta <= 0.63 and disks > 2.
+/// Returns 1 / t_H of Haff's law for the mean of T^-1/2 over many starts, 1 + t / t_H for kT(0) = K / (N - 1) = 1 and N disks in
+/// a periodic box: (1 - e^2) omega / 4 N / (N - 1), omega the rate that belongs to the pressure of this many disks, with what a2
+/// (1 + 3 a2 / 16) and the fixed energy make of the mean cube of the relative speed, and with the lumps in which collisions take
+/// energy (1 + 3 (1 - e^2) / 2 N). Requires eta <= 0.63 and disks > 2.
 [[nodiscard]] double haff_rate(double restitution, double eta, std::int64_t disks);
 
 /// Returns the number of disks in a square box above which its longest shear wave grows, in units of the thermal speed, while the
 /// gas cools: k^2 = zeta / 2 nu at k = 2 pi / L, zeta / 2 = 1 / t_H and Enskog's viscosity.
 [[nodiscard]] double shear_instability(double restitution, double eta);
+
+/// Returns the fraction by which shear waves slow the cooling down in a box in which all decay. A wave of wave number k holds one
+/// part in 2 N of the energy, times 1 / (1 - zeta / 2 nu k^2). That cools nothing, and what collisions take goes as the 3/2 power
+/// of the rest. Counted are waves with k l < 1, l the mean free path: shorter ones are no flow. Requires disks <
+/// shear_instability().
+[[nodiscard]] double haff_slowing(double restitution, double eta, std::int64_t disks);
 
 /// Kurtosis <v^4> / <v^2>^2 of a gas of restitution e that cools evenly: 2 (1 + a2).
 [[nodiscard]] double cooling_kurtosis(double restitution);

@@ -149,7 +149,16 @@ TEST(HaffRate, OfManyDisksHasTheSonineTermAlone) {
   constexpr double e = 0.95, eta = 0.1;
   const double bare = (1.0 - e * e) / 4.0 * theory::disk_collision_rate(theory::kolafa_rottner(eta));
   EXPECT_NEAR(theory::haff_rate(e, eta, 1'000'000) / bare, 1.0 + 3.0 / 16.0 * theory::cooling_sonine(e), 1e-5);
-  EXPECT_NEAR(theory::haff_rate(e, eta, 100) / bare, 0.984, 0.001) << "Z of so few disks, and their fixed energy";
+  EXPECT_NEAR(theory::haff_rate(e, eta, 100) / bare, 0.984 * (1.0 + 1.0 / 99.0) * (1.0 + 0.0975 * 1.5 / 100.0), 0.001)
+      << "Z of so few disks, their fixed energy, which 99 of them have, and the lumps that collisions take";
+}
+
+TEST(HaffSlowing, IsThatOfTheWavesLongerThanTheMeanFreePath) {
+  constexpr double e = 0.95, eta = 0.1;
+  const double limit = theory::shear_instability(e, eta);
+  // Boxes 20 and 22 wide: k l is 0.75 and 0.66 for the four longest waves, 0.93 for the four along the diagonals of the second.
+  EXPECT_NEAR(theory::haff_slowing(e, eta, 50), 3.0 / (limit - 50.0), 1e-12);
+  EXPECT_NEAR(theory::haff_slowing(e, eta, 64), 3.0 / (limit - 64.0) + 3.0 / (2.0 * limit - 64.0), 1e-12);
 }
 
 TEST(ShearInstability, IsThatOfTheLongestWave) {
