@@ -20,8 +20,7 @@ namespace carom {
 
 /// A trajectory and one vector of its tangent space, moved from event to event. O(1) per event.
 ///
-/// It is the divergence of a vanishingly small difference between two trajectories: tangent-space dynamics of hard disks
-/// (Dellago, Posch & Hoover, Phys. Rev. E 53, 1485 (1996), dellago1996), carried along an event log.
+/// It is the divergence of a vanishingly small difference between two trajectories, carried along an event log.
 ///
 /// Between events the difference (dr, dv) of a disk grows as dr += dv t. At an event the two trajectories collide at different
 /// times. With M the map of the collision and tau the delay of the second trajectory, the difference of the two after both have
