@@ -448,13 +448,21 @@ def beside(
         return Page(_files.side_by_side(core, method, spring, engine, tell))
 
 
-def validate(*, full: bool = False, only: Sequence[str] = (), seed: int = 1, progress: Progress | None = None) -> Validation:
+def validate(
+    *,
+    full: bool = False,
+    only: Sequence[str] = (),
+    seed: int = 1,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Validation:
     """Holds the engine against kinetic theory and the literature. Takes a minute; a full one takes twenty.
 
     Args:
         full: twenty times the collisions, and trials of its own.
         only: names of trials, of `carom.validation_trials()`, and of their groups; none: all.
         seed: of the random numbers, 0 to 9e12.
+        threads: how many trials run side by side, 1 to 4096, which find the same; None: one for each processor.
         progress: True for a bar (needs tqdm), or a function of the fraction done.
 
     Raises:
@@ -467,8 +475,9 @@ def validate(*, full: bool = False, only: Sequence[str] = (), seed: int = 1, pro
 
     names = _arguments.list_of_words(only, "only")
     number = _arguments.whole(seed, "seed")
+    side_by_side = None if threads is None else _arguments.whole(threads, "threads", least=1, most=4096)
     with _sentences(), reporting(progress, "validate") as tell:
-        text, verdicts, sentence, page, complete = _files.validate(bool(full), names, number, tell)
+        text, verdicts, sentence, page, complete = _files.validate(bool(full), names, number, side_by_side, tell)
     summary: dict[str, Any] = json.loads(text)
     checks = [{"trial": trial["trial"], **check} for trial in summary["trials"] for check in trial["checks"]]
     columns: dict[str, npt.ArrayLike] = {name: _words(check[name] for check in checks) for name in ("trial", "name")}

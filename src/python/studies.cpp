@@ -198,8 +198,10 @@ SpectrumParts lyapunov_spectrum(const Scene& scene, std::optional<std::uint64_t>
 /// validation.json, the verdicts of all checks in words, one line on all of them, the page, whether it is complete
 using ValidationParts = std::tuple<std::string, std::vector<std::string>, std::string, std::string, bool>;
 
-ValidationParts validate(bool full, const std::vector<std::string>& only, std::int64_t seed, const nb::object& report) {
-  const ValidateOptions options = cli::validate_options({.full = full, .seed = seed, .only = only, .out = {}});
+ValidationParts validate(bool full, const std::vector<std::string>& only, std::int64_t seed, std::optional<int> threads,
+                         const nb::object& report) {
+  const ValidateOptions options =
+      cli::validate_options({.full = full, .seed = seed, .only = only, .threads = threads, .out = {}});
   Watch watch(report);
   ValidationParts parts = watched(watch, [&]() -> ValidationParts {
     ValidateHooks hooks;
@@ -305,7 +307,8 @@ void add_studies(nb::module_& module) {
       nb::arg("first"), nb::arg("second"), "Returns what carom diff --json prints, and the text of the terminal.");
   module.def("horizon", &horizon, nb::arg("scene"), nb::arg("engine"), nb::arg("collisions").none(), nb::arg("report").none());
   module.def("lyapunov_spectrum", &lyapunov_spectrum, nb::arg("scene"), nb::arg("collisions").none(), nb::arg("report").none());
-  module.def("validate", &validate, nb::arg("full"), nb::arg("only"), nb::arg("seed"), nb::arg("report").none());
+  module.def("validate", &validate, nb::arg("full"), nb::arg("only"), nb::arg("seed"), nb::arg("threads").none(),
+             nb::arg("report").none());
   module.def("validation_trials", &validation_trials, nb::arg("full"));
   module.def("hard_cases", &hard_cases, nb::arg("names"), nb::arg("engine"), nb::arg("report").none());
   module.def("hard_case_names", [] {

@@ -203,6 +203,18 @@ def test_a_validation_has_the_programs_numbers(program, tmp_path):
     assert "all hold" in validation.sentence and validation.sentence in validation._repr_html_()
 
 
+def test_a_validation_runs_on_as_many_threads_as_asked_for_and_finds_the_same():
+    def found_by(threads):
+        running = []
+        validation = carom.validate(
+            only=["equipartition-walls", "grid-0.02", "grid-0.004"], threads=threads, progress=lambda fraction: running.append(len(os.listdir("/proc/self/task")))
+        )
+        return without_clocks(validation.summary), max(running)
+
+    (one, few), (three, more) = found_by(1), found_by(3)
+    assert one == three and more == few + 2
+
+
 def test_hard_cases_have_the_programs_verdicts(program):
     names = ["all_at_rest", "gap_of_one_ulp", "final_bits"]
     names = [name for name in names if name in carom.hard_case_names()]
@@ -259,6 +271,7 @@ def test_a_hard_case_of_ones_own_may_fail(tmp_path):
         (lambda scene: carom.validate(only="presure"), "only=presure: there is no such trial and no such group; carom.validation_trials() names"),
         (lambda scene: carom.validate(seed=10**13), "seed=10000000000000: it can be 0 to 9000000000000"),
         (lambda scene: carom.validate(seed=-1), "seed is -1; it must be from 0"),
+        (lambda scene: carom.validate(threads=0), "threads is 0; it must be from 1 to 4096"),
         (lambda scene: carom.compare(scene, seeds="many"), "seeds is 'many'; give a whole number"),
         (lambda scene: carom.compare(scene, stiffness="stiff"), "stiffness is 'stiff'; give a number"),
         (lambda scene: carom.compare(scene, dts="long"), "dts: an array of <U4 is given; give real numbers"),
