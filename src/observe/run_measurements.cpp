@@ -46,12 +46,12 @@ void RunMeasurements::sample(const State& state) {
   look_for_overlap(state);
 }
 
-/// The energy of disks and pistons, and of fields, before the change and after it.
+/// The energy of disks and pistons, and of fields, before the change and after it. One that cannot be made gives none.
 void RunMeasurements::change(bool made) {
   const Scene& scene = simulation_.scene();
   const double energy = total_energy(scene.box, scene.effects, simulation_.disks(), simulation_.state());
-  energy_of_changes_ += made ? energy : -energy;
-  if (made) ++changes_;
+  if (made) energy_of_changes_ += energy - energy_before_change_, ++changes_;
+  energy_before_change_ = energy;
 }
 
 void RunMeasurements::block(const Progress& progress) { virial_.add(progress.time, progress.totals.virial); }

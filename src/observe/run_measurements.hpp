@@ -44,8 +44,9 @@ class RunMeasurements {
   double temperature_sum_ = 0.0;
   EffectMeans effect_means_;
   std::uint64_t samples_ = 0;
-  double energy_of_changes_ = 0.0;  ///< given by the scene's changes
-  std::uint64_t changes_ = 0;       ///< made
+  double energy_of_changes_ = 0.0;     ///< given by the scene's changes
+  std::uint64_t changes_ = 0;          ///< made
+  double energy_before_change_ = 0.0;  ///< of the change that is being made
 };
 
 }  // namespace carom

@@ -74,11 +74,11 @@ class Work final : public SavedObservable<Work>, public ChangeFollower {
     if (!made) {
       add(state, totals);
       field_before_ = sums_[of_field];
-      sums_[of_changes] -= energy(state);
+      energy_before_ = energy(state);
       return;
     }
     acting_ = effects;
-    sums_[of_changes] += energy(state);
+    sums_[of_changes] += energy(state) - energy_before_;
     potential_ = potential(state);
     look_at_walls(state);
   }
@@ -184,6 +184,7 @@ class Work final : public SavedObservable<Work>, public ChangeFollower {
   double potential_ = 0.0;                ///< at the start, or after the last change
   double field_before_ = 0.0;             ///< work of fields before the last change
   double energy_ = 0.0;                   ///< of the disks at the start
+  double energy_before_ = 0.0;            ///< of the disks before the change that is being made
   std::array<double, places> sums_{};
   std::array<double, 4> velocity_{};                          ///< of walls at the last sample
   std::array<double, 4> energies_{}, impulses_{}, shears_{};  ///< at the last sample

@@ -34,6 +34,7 @@ Measured measure(const Scene& scene) {
   };
   hooks.sample = [&](std::uint64_t, const State& state) { measurements.sample(state); };
   hooks.block = [&](const Progress& progress) { measurements.block(progress); };
+  hooks.change = [&](bool made) { measurements.change(made); };
   hooks.events = [&](std::span<const Event> events) {
     for (const Event& event : events) {
       if (event.partner >= 0) {
@@ -158,6 +159,19 @@ TEST(RunMeasurements, BesideAHeatBathTheErrorOfZIsThatOfARatio) {
     EXPECT_NEAR(*report.Z, *Z.value, *Z.error);
   }
   EXPECT_NEAR(summary / observable, 1.0, 4.0 * 0.11);
+}
+
+TEST(RunMeasurements, AChangeThatCannotBeMadeGivesNoEnergy) {
+  Scene scene = gas_scene(16, 0.3, Boundary::walls);
+  scene.run.time = 2.0;
+  const Eigen::Vector2d centre = (scene.box.lower + scene.box.upper) / 2.0;
+  const DiskObstacle nearly_everything{.centre = centre, .radius = 0.49 * scene.box.lengths().minCoeff()};
+  scene.changes = {{0.5, ScaleVelocities{2.0}}, {1.0, AddObstacle{nearly_everything}}};
+  const RunReport report = measure(scene).report;
+  EXPECT_EQ(report.stopped, StopReason::blocked);
+  EXPECT_EQ(report.of_effects.changes->made, 1U);
+  EXPECT_NEAR(report.of_effects.changes->energy, 3.0 * report.energy_initial, 1e-12 * report.energy_initial);
+  EXPECT_NEAR(report.energy_final, 4.0 * report.energy_initial, 1e-12 * report.energy_initial);
 }
 
 TEST(RunMeasurements, ADeeplyOverlappingStateIsReported) {

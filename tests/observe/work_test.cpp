@@ -169,6 +169,13 @@ TEST(Work, OfAChangeIsTheEnergyThatItGives) {
   expect_sum(observed("[collision]\nrule = \"specular\"\nroughness = 0.5\n[[changes]]\ntime = 3.3\nscale_velocities = 0.5\n"));
 }
 
+TEST(Work, OfAChangeThatCannotBeMadeIsNone) {
+  const Observed blocked =
+      observed(specular + "[[changes]]\ntime = 3.3\nadd_obstacle = { disk = { centre = [10, 5], radius = 4.9 } }\n");
+  EXPECT_EQ(blocked.numbers.at("work_changes"), 0.0);
+  expect_sum(blocked);
+}
+
 TEST(Work, OfChangedFieldsAndWallsIsThatOfEachStretch) {
   const Observed field = observed(specular +
                                   "[gravity]\nacceleration = [0.0, -1.0]\n[[changes]]\ntime = 3.3\nset = "
