@@ -64,7 +64,7 @@ class ScratchDirectory {
   fs::path path_;
 };
 
-/// The facts of a run's summary that its repetition needs.
+/// The facts of a run's summary that its repetition needs; `engine` is the one to ask for.
 struct Recorded {
   std::string resolved_scene, engine, commit;
   std::optional<double> dt = {}, stiffness = {};
@@ -83,8 +83,9 @@ Recorded recorded(const fs::path& directory) {
       throw UsageError(fmt::format(
           "{}: the summary does not hold the scene of the run: an earlier version of carom wrote it; run the scene again",
           path.string()));
-    Recorded run{
-        .resolved_scene = json.at("resolved_scene"), .engine = json.at("engine"), .commit = json.at("carom").at("commit")};
+    Recorded run{.resolved_scene = json.at("resolved_scene"),
+                 .engine = json.value("engine_asked", json.at("engine").get<std::string>()),
+                 .commit = json.at("carom").at("commit")};
     if (json.contains("dt")) run.dt = json.at("dt").get<double>();
     if (json.contains("stiffness")) run.stiffness = json.at("stiffness").get<double>();
     run.interrupted = json.at("stopped") == "interrupted";

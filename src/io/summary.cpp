@@ -84,6 +84,7 @@ std::string summary_json(const RunReport& report, const Provenance& provenance) 
   json["scene"] = report.scene;
   json["seed"] = report.seed;
   json["engine"] = report.engine;
+  if (!report.engine_asked.empty()) json["engine_asked"] = report.engine_asked;
   if (report.time_step) json["dt"] = number(report.time_step);
   if (report.stiffness) json["stiffness"] = number(report.stiffness);
   json["effects"] = report.effects;

@@ -139,6 +139,7 @@ RunReport run_report_of(const Json& json) {
   report.title = json.at("title").get<std::string>();
   report.seed = json.at("seed").get<std::uint64_t>();
   report.engine = json.at("engine").get<std::string>();
+  report.engine_asked = json.value("engine_asked", "");
   report.time_step = number_in(json, "dt");
   report.stiffness = number_in(json, "stiffness");
   report.effects = json.at("effects").get<std::vector<std::string>>();

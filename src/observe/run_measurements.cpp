@@ -5,6 +5,7 @@
 #include "observe/equilibrium.hpp"
 #include "observe/geometry.hpp"
 #include "observe/mechanics.hpp"
+#include "simulation/engine_reason.hpp"
 
 #include <algorithm>
 #include <numbers>
@@ -16,7 +17,6 @@ RunMeasurements::RunMeasurements(const Simulation& simulation) : simulation_(sim
   report_.scene = scene.source;
   report_.title = scene.title;
   report_.seed = scene.run.seed;
-  report_.engine = simulation.engine();
   report_.time_step = simulation.time_step();
   report_.stiffness = simulation.stiffness();
   report_.effects = names_of(scene.effects, !scene.box.periodic(0) || !scene.box.periodic(1));
@@ -93,6 +93,7 @@ void RunMeasurements::measure_Z(const RunResult& result, double temperature) {
 void RunMeasurements::add_changes(const Scene& whole) {
   EffectsReport& report = report_.of_effects;
   const Scene& now = simulation_.scene();
+  report_.engine_asked = simulation_.engine_reason() == detail::engine_was_asked_for ? simulation_.engine() : "auto";
   report.changes = {.made = changes_, .energy = energy_of_changes_};
   const State state = simulation_.state();
   if (report.energies_end) report.energies_end = energies_of(now.box, now.effects, simulation_.disks(), state);
@@ -112,6 +113,7 @@ RunReport RunMeasurements::report(const RunResult& result, double wall_seconds) 
   look_for_overlap(state);
   const double temperature = kinetic_temperature(scene.box, scene.effects, disks, state);
 
+  report_.engine = simulation_.engine();
   report_.time = simulation_.time();
   report_.state_hash = state_hash(state);
   report_.samples = result.samples;

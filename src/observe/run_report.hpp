@@ -29,7 +29,8 @@ struct RunReport {
   std::string scene;  ///< the scene's source
   std::string title;
   std::uint64_t seed = 1;
-  std::string engine;                ///< or the fixed-step method
+  std::string engine;                ///< or the fixed-step method; after changes of the scene that of the last part
+  std::string engine_asked;          ///< of a scene with changes: "auto", or the name that was asked for; otherwise empty
   std::optional<double> time_step;   ///< dt of a fixed-step method; empty where events are exact
   std::optional<double> stiffness;   ///< that was given to it
   std::vector<std::string> effects;  ///< names of all effects: "specular", "walls", ...
@@ -70,6 +71,8 @@ struct RunReport {
   std::map<std::string, std::string> appended;
   bool measured = true;  ///< false where the run ended while it was still equilibrating: clock and totals are of that part
 
+  /// Returns the engine or method to ask for when the run is to be repeated.
+  [[nodiscard]] const std::string& engine_to_repeat() const { return engine_asked.empty() ? engine : engine_asked; }
   /// Returns (final - initial) / initial, 0 where the initial energy is 0. Where potential energy may cancel kinetic energy it is
   /// relative to energy_scale.
   [[nodiscard]] double relative_energy_drift() const {

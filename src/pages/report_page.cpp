@@ -52,7 +52,7 @@ std::string how_again(const RunReport& report) {
       "save the scene with every default (above) as again.toml and run: carom run again.toml {}. carom verify RUN_DIR does this "
       "and "
       "compares the results",
-      method_options(report.engine, report.time_step, report.stiffness));
+      method_options(report.engine_to_repeat(), report.time_step, report.stiffness));
 }
 
 Section simulated(const RunRecord& record) {

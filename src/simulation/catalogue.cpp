@@ -3,6 +3,7 @@
 #include "core/real.hpp"
 #include "simulation/drag_engine.hpp"
 #include "simulation/driven_engine.hpp"
+#include "simulation/engine_reason.hpp"
 
 #include <carom/simulation.hpp>
 
@@ -75,7 +76,7 @@ const EngineEntry& choose_engine(const Scene& scene, const Disks& disks, const s
 
 std::string why_chosen(const EngineEntry& entry, const Scene& scene, const Disks& disks, const std::string& engine,
                        bool own_rule) {
-  if (engine != "auto") return "it was asked for";
+  if (engine != "auto") return engine_was_asked_for;
   const auto& entries = catalogue();
   const auto same = [&](const auto& other) { return other.name == entry.name; };
   const auto position = std::find_if(entries.begin(), entries.end(), same);

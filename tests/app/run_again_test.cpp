@@ -2,6 +2,7 @@
 
 #include "support/program_test.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -57,6 +58,17 @@ TEST_F(RunAgain, EngineAndMethodAreThoseOfTheRun) {
             0);
   EXPECT_EQ(carom({"verify", "gas"}).exit_code, 0);
   EXPECT_THAT(carom({"info", "gas", "--reproduce"}).out, HasSubstr(" --method soft --dt 0.001 --stiffness 4321.0123456789\n"));
+}
+
+TEST_F(RunAgain, AChangeAfterWhichAnotherEngineGoesOnIsTheSame) {
+  write_text(file("gas.toml"), std::string(fifty_disks) +
+                                   "[drag]\nrate = 0.1\n[[changes]]\ntime = 0.5\nset = [\"drag.rate=0\"]\n"
+                                   "[[changes]]\ntime = 1.0\nset = [\"collision.restitution=0.5\"]\n");
+  for (const char* asked : {"auto", "textbook"}) {
+    ASSERT_EQ(carom({"run", "gas.toml", "-q", "--force", "--events", "--engine", asked}).exit_code, 0);
+    EXPECT_EQ(carom({"verify", "gas"}).exit_code, 0) << asked;
+    EXPECT_THAT(carom({"info", "gas", "--reproduce"}).out, HasSubstr(fmt::format(" --engine {}\n", asked)));
+  }
 }
 
 TEST_F(RunAgain, WhatIsNotTheSameIsNamed) {

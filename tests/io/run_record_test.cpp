@@ -50,6 +50,7 @@ TEST(RunReportOf, IsTheInverseOfTheSummary) {
   EXPECT_EQ(again(json_of(report)), json_of(report));
   report.time_step = 0.25;
   report.stiffness = 5000.0;
+  report.engine_asked = "auto";
   report.Z.reset();
   report.Z_error.reset();
   report.overlap_at_start = 0.5;
