@@ -9,18 +9,20 @@ import math
 import random
 
 FORBIDDEN = {
-    "shear": {"gravity", "obstacles", "growth", "square_well", "stepped_potential", "drag"},
+    "shear": {"gravity", "obstacles", "growth", "square_well", "stepped_potential", "drag", "tumbling"},
     "growth": {"shear", "square_well", "stepped_potential", "drag"},
     "square_well": {"shear", "growth", "drag", "stepped_potential"},
     "stepped_potential": {"shear", "growth", "drag", "square_well"},
     "gravity": {"shear", "drag"},
     "obstacles": {"shear"},
-    "drag": {"shear", "growth", "square_well", "stepped_potential", "gravity", "thermostat"},
-    "thermostat": {"drag"},
+    "drag": {"shear", "growth", "square_well", "stepped_potential", "gravity", "thermostat", "tumbling", "brownian"},
+    "thermostat": {"drag", "tumbling", "brownian"},
+    "tumbling": {"drag", "thermostat", "brownian", "shear"},
+    "brownian": {"drag", "thermostat", "tumbling"},
 }
 OBSERVABLES = (
     "temperature", "pressure", "velocity_moments", "h_function", "collision_rate", "contact_values", "free_flight", "speeds", "radial_distribution", "structure_factor",
-    "hexatic", "voronoi", "clusters", "density_profile", "fields", "mean_square_displacement", "intermediate_scattering", "overlap", "non_gaussian", "van_hove", "velocity_autocorrelation", "viscosity", "heat_conductivity", "wall_fluxes",
+    "hexatic", "voronoi", "clusters", "density_profile", "fields", "mean_square_displacement", "intermediate_scattering", "overlap", "non_gaussian", "van_hove", "velocity_autocorrelation", "viscosity", "heat_conductivity", "wall_fluxes", "work",
 )
 HOSTILE = (
     0, -1, 0.0, -0.0, -1.0, 1, 1.0, 2.0, 0.5, 1e-9, 1e-30, 1e-100, 1e-160, 1e-200, 1e-300, 5e-324, 1e9, 1e30, 1e100, 1e140, 1e160, 1e200, 1e308,
@@ -82,6 +84,10 @@ def load(value):
     return Quantity(value, time=-2, mass=1)
 
 
+class Overrides(dict):
+    """Keys with dots and their new values, which a change has as texts."""
+
+
 def toml(value, units):
     if isinstance(value, bool):
         return "true" if value else "false"
@@ -91,6 +97,8 @@ def toml(value, units):
         return repr(value)
     if isinstance(value, str):
         return json.dumps(value)
+    if isinstance(value, Overrides):
+        return toml([f"{key}={toml(item, units)}" for key, item in value.items()], units)
     if isinstance(value, list):
         return "[" + ", ".join(toml(item, units) for item in value) + "]"
     return "{ " + ", ".join(f"{key} = {toml(item, units)}" for key, item in value.items()) + " }"
@@ -140,6 +148,22 @@ class Scene:
                 other.tables.pop(table, None)
         return other
 
+    def stages(self):
+        """The tables as the run begins, and after each change; obstacles that are removed are still there."""
+        now = self.tables
+        yield now
+        for change in now.get("changes", []):
+            now = copy.deepcopy(now)
+            for key, value in change.get("set", {}).items():
+                *path, last = key.split(".")
+                table = now
+                for name in path:
+                    table = table.setdefault(name, {})
+                table[last] = value
+            if "add_obstacle" in change:
+                now.setdefault("obstacles", []).append(change["add_obstacle"])
+            yield now
+
     def set(self, table, **keys):
         other = self.copy()
         other.tables.setdefault(table, {}).update(keys)
@@ -151,11 +175,13 @@ def draw(seed, number):
     r = random.Random(f"scene {number} of {seed}")
     scene = Scene()
     scene.bold = r.random() < 1 / 7
-    walled = r.choice([(False, False), (False, False), (True, True), (True, True), (True, False), (False, True)])
-    gas = draw_disks(r, scene, walled)
+    circular = r.random() < 0.1
+    walled = (True, True) if circular else r.choice([(False, False), (False, False), (True, True), (True, True), (True, False), (False, True)])
+    gas = draw_disks(r, scene, walled, circular)
     draw_collision(r, scene)
     draw_effects(r, scene, walled, gas)
     draw_run(r, scene, gas)
+    draw_changes(r, scene, walled, gas)
     draw_output(r, scene)
     draw_observe(r, scene, walled, gas)
     if r.random() < 0.3:
@@ -169,9 +195,10 @@ class Gas:
     """What else is drawn to fit: sizes, rates and times in which length, speed and mass of a disk are some 1."""
 
     overlaps = False
+    equal = False  # all disks
 
 
-def draw_disks(r, scene, walled):
+def draw_disks(r, scene, walled, circular):
     gas = Gas()
     gas.count = r.choice([0, 1, 1, 2, 2, 3, 4, 6, 8, 12, 20, 20, 30, 40, 60, 100, 200])
     kinds = min(r.choice([1, 1, 1, 2, 3]), gas.count)
@@ -184,7 +211,7 @@ def draw_disks(r, scene, walled):
     gas.start = start
     gas.fraction = r.uniform(*fractions.get(start, (0.1, 0.6)))
     gas.radius = max(radii, default=0.5)
-    aspect = r.choice([1.0, 1.0, 1.0, r.uniform(1.0, 4.0), 1.0 / r.uniform(1.0, 4.0)])
+    aspect = 1.0 if circular else r.choice([1.0, 1.0, 1.0, r.uniform(1.0, 4.0), 1.0 / r.uniform(1.0, 4.0)])
     area = max(sum(n * math.pi * a * a for n, a in zip(counts, radii)) / gas.fraction, 4.0)
     gas.sides = [math.sqrt(area * aspect), math.sqrt(area / aspect)]
     shortest = 2.0 * gas.radius * r.choice([1.05, 1.5, 2.5])
@@ -197,6 +224,11 @@ def draw_disks(r, scene, walled):
     boundary = words[0] if words[0] == words[1] and r.random() < 0.7 else {"x": words[0], "y": words[1]}
     box = {axis: [length(gas.lower[i]), length(gas.upper[i])] for i, axis in enumerate("xy")}
     scene.tables["box"] = {**box, "boundary": boundary}
+    if circular:  # round the square in which disks are listed and obstacles drawn
+        radius = math.hypot(*gas.sides) / 2.0
+        scene.tables["box"] = {"circle": {"centre": [length((low + high) / 2.0) for low, high in zip(gas.lower, gas.upper)], "radius": length(radius)}}
+        gas.fraction *= gas.area / (math.pi * radius**2)
+        gas.area = math.pi * radius**2
     if not counts:
         return gas
     species = []
@@ -204,16 +236,23 @@ def draw_disks(r, scene, walled):
         m = r.choice([1.0, 1.0, 1.0, 2.0, 0.1, r.uniform(0.2, 5.0), 1e3 if r.random() < 0.2 else 1.0])
         species.append({"count": n, "radius": length(a), "mass": mass(m), "positions": start, "velocities": draw_velocities(r, n, m)})
     scene.tables["disks"] = species
+    if start in ("listed", "file"):
+        list_places(r, scene, gas, walled, start == "file")
+    gas.equal = start != "file" and len(species) == 1
+    for one in species if start != "file" else ():
+        if r.random() < 0.15:
+            draw_radii(r, one, start == "grown")
+            gas.equal = False
+        if start == "random" and r.random() < 0.15:
+            one["positions"] = {"random": draw_region(r, gas)}
     if start == "grown":
-        share = sum(n * math.pi * a * a for n, a in zip(counts, radii)) / gas.area
+        share = sum(n * math.pi * sum(a * a for a in listed(one)) / len(listed(one)) for n, one in zip(counts, species)) / gas.area
         for one in species:
             one["positions"] = {"packing_fraction": share}
-    elif start in ("listed", "file"):
-        list_places(r, scene, gas, walled, start == "file")
-    elif len(species) == 1 and r.random() < 0.15:
+    elif gas.equal and species[0]["positions"] in ("random", "square", "hexagonal") and r.random() < 0.15:
         one = species[0]
         share = gas.count * math.pi * radii[0] ** 2 / gas.area
-        if r.random() < 0.5:
+        if circular or r.random() < 0.5:
             del one["radius"]
             species[0] = {**one, "packing_fraction": share}
         else:
@@ -224,6 +263,33 @@ def draw_disks(r, scene, walled):
         for k, one in enumerate(species):
             one["name"] = f"kind {k}"
     return gas
+
+
+def listed(one):
+    """The radii of a species: that of all its disks, or a list."""
+    return one["radius"]["list"] if isinstance(one["radius"], dict) else [one["radius"]]
+
+
+def draw_radii(r, one, must_be_listed):
+    """Radii by a law in place of one, few of them larger, and now and then masses that follow from them."""
+    a, count = one["radius"], one.get("count", len(one["positions"]))
+    law = "list" if must_be_listed else r.choice(["list", "uniform", "lognormal"])
+    if law == "list":
+        one["radius"] = {"list": [length(a * r.choice([1.0, 0.5, r.uniform(0.3, 1.0)])) for _ in range(count)]}
+    elif law == "uniform":
+        one["radius"] = {"uniform": [length(a * r.choice([1.0, 0.5, 0.9])), length(a)]}
+    else:
+        one["radius"] = {"lognormal": {"mean": length(0.8 * a), "deviation": length(a * r.choice([0.0, 0.01, 0.1]))}}
+    if r.random() < 0.4:
+        one["mass"] = {"per_area": Quantity(float(one["mass"]) / (math.pi * a * a), length=-2, mass=1)}
+
+
+def draw_region(r, gas):
+    """A part of the box, most of it."""
+    if r.random() < 0.5:
+        return {"centre": [length((low + high) / 2.0) for low, high in zip(gas.lower, gas.upper)], "radius": length(min(gas.sides) * r.choice([0.5, 0.45]))}
+    shares = [r.choice([1.0, 0.7, 0.85]) for _ in "xy"]
+    return {axis: [length(low), length(low + share * (high - low))] for axis, low, high, share in zip("xy", gas.lower, gas.upper, shares)}
 
 
 def draw_velocities(r, count, m):
@@ -294,8 +360,10 @@ def draw_effects(r, scene, walled, gas):
     events = 10 ** r.uniform(0.5, 3.0)
     gas.time = min(2.0 * events / max(gas.count, 1) / rate_of_disk, 60.0 * crossing)
     gas.mean_free_time = min(1.0 / rate_of_disk, crossing)
-    wanted = [name for name in ("gravity", "walls", "obstacles", "growth", "thermostat", "shear", "square_well", "stepped_potential", "drag", "non_additivity") if r.random() < 0.25]
+    wanted = [name for name in ("gravity", "walls", "obstacles", "growth", "thermostat", "shear", "square_well", "stepped_potential", "drag", "non_additivity",
+                             "tumbling", "brownian") if r.random() < 0.22]
     r.shuffle(wanted)
+    circular = "circle" in scene.tables["box"]
     if any(walled) and r.random() < 0.3 and "walls" not in wanted:
         wanted.append("walls")
     drawn = set()
@@ -303,7 +371,7 @@ def draw_effects(r, scene, walled, gas):
         if not scene.bold:
             if drawn & FORBIDDEN.get(name, set()):
                 continue
-            if name == "shear" and any(walled) or name in ("walls", "gravity") and not any(walled):
+            if name == "walls" and circular or name == "shear" and any(walled) or name in ("walls", "gravity") and not any(walled):
                 continue
             if name == "non_additivity" and (len(scene.tables.get("disks", [])) < 2 or "roughness" in scene.tables["collision"]):
                 continue
@@ -328,6 +396,10 @@ def draw_effects(r, scene, walled, gas):
         tables["growth"] = growth
     if "thermostat" in drawn:
         tables["thermostat"] = {"temperature": energy(r.choice([1.0, r.uniform(0.1, 3.0)])), "rate": rate(r.choice([0.0, 0.05, 0.5, 2.0]) * rate_of_disk)}
+    if "tumbling" in drawn:
+        tables["tumbling"] = {"rate": rate(r.choice([0.0, 0.05, 0.5, 2.0]) * rate_of_disk)}
+    if "brownian" in drawn:
+        tables["brownian"] = {"temperature": energy(r.choice([1.0, r.uniform(0.1, 3.0)])), "rate": rate(r.choice([0.0, 0.05, 0.5, 2.0]) * rate_of_disk)}
     if "shear" in drawn:
         tables["shear"] = {"rate": rate(r.choice([0.0, 0.01, 0.1, -0.1, 1.0, -3.0]))}
     if "drag" in drawn:
@@ -371,11 +443,12 @@ def draw_contacts(r, gas, kinds):
 
 
 def draw_wall(r, gas, side, grows):
-    kinds = ["restitution", "temperature", "hot and inelastic?", "moving", "moving inelastic", "moving warm", "piston", "inelastic piston",
+    kinds = ["restitution", "temperature", "sliding", "hot and inelastic?", "moving", "sliding and moving", "moving inelastic", "moving warm", "piston", "inelastic piston",
              "hitting", "vibrating", "vibrating inelastic"]
-    kind = r.choice(kinds[:2] if grows else kinds)
+    kind = r.choice(kinds[:3] if grows else kinds)
     inelastic = {"restitution": r.choice([0.0, 0.5, 0.9, 1.0, r.random()])}
     warm = {"temperature": energy(r.choice([1.0, r.uniform(0.1, 4.0)]))}
+    sliding = {**warm, "tangential_velocity": speed(r.choice([0.0, 1.0, r.uniform(-2.0, 2.0)]))}
     moving = {"velocity": speed(r.choice([0.0, r.uniform(-0.1, 0.1) * side / gas.time, r.uniform(-0.1, 0.1)]))}
     piston = {"mass": mass(r.choice([0.1, 1.0, 10.0, 100.0, 1e4])), "load": load(r.choice([0.0, 0.1, 1.0, 1.0]) * (gas.count + 0.1) / gas.area)}
     hitting = {"vibration": speed(r.choice([0.0, 1.0, r.uniform(0.0, 2.0)]))}
@@ -385,7 +458,7 @@ def draw_wall(r, gas, side, grows):
                                "frequency": rate(r.choice([0.0, 1.0, r.uniform(0.01, 3.0), 30.0 / gas.time])), "phase": r.choice([0.0, 0.25, 0.5, r.random()])}}
     return {
         "hitting": hitting, "vibrating": vibrating, "vibrating inelastic": {**vibrating, **inelastic},
-        "restitution": inelastic, "temperature": warm, "hot and inelastic?": inelastic, "moving": moving, "moving inelastic": {**moving, **inelastic},
+        "restitution": inelastic, "temperature": warm, "sliding": sliding, "sliding and moving": {**sliding, **moving}, "hot and inelastic?": inelastic, "moving": moving, "moving inelastic": {**moving, **inelastic},
         "moving warm": {**moving, **warm}, "piston": piston, "inelastic piston": {**piston, **inelastic},
     }[kind]
 
@@ -447,6 +520,59 @@ def draw_run(r, scene, gas):
     tables["run"] = run
 
 
+def draw_changes(r, scene, walled, gas):
+    """Effects that are switched while the run goes on. Some need room that is not there: the run ends then."""
+    tables = scene.tables
+    if "time" not in tables["run"] or r.random() > 0.2:
+        return
+    end = tables["run"]["time"]
+    obstacles = len(tables.get("obstacles", []))
+    changes = []
+    for moment in sorted(r.choice([0.0, 0.5, r.random(), r.random()]) for _ in range(r.choice([1, 1, 2, 3, 6]))):
+        kind = r.choice(["set", "set", "set", "scale_velocities", "add_obstacle", "remove_obstacle"])
+        if kind == "remove_obstacle" and obstacles == 0 or kind == "add_obstacle" and "shear" in tables:
+            kind = "set"
+        if kind == "set":
+            keys = list(changeable(r, scene, walled, gas).items())
+            what = Overrides(r.sample(keys, min(len(keys), r.choice([1, 1, 2]))))
+        elif kind == "scale_velocities":
+            what = r.choice([-1.0, -1.0, 0.0, 0.5, 1.1])
+        elif kind == "add_obstacle":
+            what = draw_obstacle(r, gas, walled)
+            obstacles += 1
+        else:
+            what = r.randrange(obstacles)
+            obstacles -= 1
+        changes.append({"time": end.like(end * moment), kind: what})
+    tables["changes"] = changes
+
+
+def changeable(r, scene, walled, gas):
+    """Keys of the scene's effects with other values, of which each could stand in a scene that begins."""
+    tables = scene.tables
+    factor = r.choice([0.0, 0.5, 2.0])
+    keys = {"collision.restitution": r.choice([0.0, 0.5, 1.0])}
+    for table, key in (("thermostat", "rate"), ("tumbling", "rate"), ("brownian", "rate"), ("growth", "rate"), ("shear", "rate"), ("drag", "rate"),
+                       ("square_well", "depth"), ("non_additivity", "delta")):
+        if key in tables.get(table, {}):
+            keys[f"{table}.{key}"] = scaled(tables[table][key], factor)
+    for table in ("thermostat", "brownian"):
+        if table in tables:
+            keys[f"{table}.temperature"] = energy(r.choice([0.5, 2.0]))
+    if "stepped_potential" in tables:
+        keys["stepped_potential.steps"] = [{**step, "energy": scaled(step["energy"], factor)} for step in tables["stepped_potential"]["steps"]]
+    if "gravity" in tables or any(walled) and not {"shear", "drag"} & set(tables):
+        keys["gravity.acceleration"] = [acceleration(r.choice([0.0, 0.1, -1.0])) if w else 0.0 for w in walled]
+    if any(walled) and "circle" not in tables["box"] and "drag" not in tables:
+        name = r.choice([name for k, name in enumerate(("left", "right", "bottom", "top")) if walled[k // 2]])
+        keys[f"walls.{name}"] = draw_wall(r, gas, gas.sides[name in ("bottom", "top")], "growth" in tables)
+    return keys
+
+
+def scaled(value, factor):
+    return value.like(factor * value) if isinstance(value, Quantity) else factor * value
+
+
 def draw_output(r, scene):
     sampled = "sample_every" in scene.tables["run"] or "sample_log" in scene.tables["run"]
     output = {"events": True} if r.random() < 0.5 else {}
@@ -460,27 +586,32 @@ def draw_output(r, scene):
 
 
 def can_be_observed(name, scene, walled, gas):
-    tables, collision = scene.tables, scene.tables["collision"]
+    collision = scene.tables["collision"]
+    tables = set().union(*scene.stages())
+    redrawn = {"thermostat", "tumbling", "brownian", "growth", "shear", "drag"} & tables
     if name == "wall_fluxes":
         return any(walled)
     if gas.count < {"hexatic": 7}.get(name, 2):
         return False
-    if name == "free_flight":
-        return not {"thermostat", "growth", "shear", "drag"} & set(tables)
+    if name in ("free_flight", "fields"):
+        return not redrawn
     if name == "contact_values":
-        return not any(walled) and not {"thermostat", "growth", "shear", "drag"} & set(tables)
+        return not any(walled) and not redrawn
     if name in ("radial_distribution", "structure_factor", "hexatic", "intermediate_scattering"):
-        return not any(walled) and not {"shear", "growth"} & set(tables)
+        return not any(walled) and not {"shear", "growth"} & tables
     if name in ("mean_square_displacement", "velocity_autocorrelation", "overlap", "non_gaussian", "van_hove", "clusters"):
         return "shear" not in tables
     if name in ("viscosity", "heat_conductivity"):
-        spoiled = any(walled) or {"obstacles", "thermostat", "growth", "shear", "square_well", "drag"} & set(tables) or set(collision) & {"restitution", "roughness"}
-        return not spoiled and collision["rule"] == "specular" and (name == "viscosity" or len(tables["disks"]) == 1 and not scene.start_files)
+        spoiled = any(walled) or redrawn or {"obstacles", "square_well", "stepped_potential"} & tables or set(collision) & {"restitution", "roughness"}
+        return not spoiled and collision["rule"] == "specular" and (name == "viscosity" or gas.equal)
     return True
 
 
 def draw_observe(r, scene, walled, gas):
     if r.random() < 0.45 or gas.count == 0:
+        return
+    of_one_run = {"shear.rate", "drag.rate", "growth.rate", "non_additivity.delta"}  # a run that changes these cannot be observed
+    if not scene.bold and any(of_one_run & set(change.get("set", ())) for change in scene.tables.get("changes", [])):
         return
     share = r.choice([0.1, 0.3, 1.0])
     dt = scene.tables["run"].get("sample_every")
@@ -494,7 +625,7 @@ def draw_observe(r, scene, walled, gas):
         if name in ("free_flight", "speeds", "radial_distribution", "hexatic", "voronoi", "van_hove", "density_profile") and r.random() < 0.4:
             settings["bins"] = r.choice([2, 10, 333])
         if name == "density_profile" and r.random() < 0.5:
-            settings["axis"] = r.choice(["x", "y"])
+            settings["axis"] = r.choice(["x", "y", "radius"] if "circle" in scene.tables["box"] else ["x", "y"])
         if name == "fields" and r.random() < 0.6:
             settings["cells"] = [r.choice([1, 2, 7, 30]), r.choice([1, 3, 16])]
         observe[name] = settings or True
@@ -529,6 +660,14 @@ def make_hostile(r, scene):
             node[path[-1]] = old.like(value) if keep_units else value
 
 
+def keep(one, part):
+    """Leaves only these disks of a species in its lists."""
+    for table in (one, one["radius"] if isinstance(one.get("radius"), dict) else {}):
+        for key in ("positions", "velocities", "list"):
+            if isinstance(table.get(key), list):
+                table[key] = table[key][part]
+
+
 def smaller(scene):
     """Scenes with one thing less each, the largest steps first."""
     for name in [name for name in scene.tables if name not in ("box", "disks", "collision", "run")]:
@@ -537,7 +676,7 @@ def smaller(scene):
         for key in list(scene.table(name)):
             if not (name == "collision" and key == "rule"):
                 yield scene.without(f"{name}.{key}")
-    for name in ("disks", "obstacles"):
+    for name in ("disks", "obstacles", "changes"):
         for k in range(len(scene.tables.get(name, [])) if len(scene.tables.get(name, [])) > 1 else 0):
             other = scene.copy()
             del other.tables[name][k]
@@ -546,16 +685,13 @@ def smaller(scene):
         if isinstance(one.get("positions"), list):
             for part in (slice(None, None, 2), slice(1, None, 2), slice(1, None), slice(None, -1)):
                 other = scene.copy()
-                for key in ("positions", "velocities"):
-                    if isinstance(one.get(key), list):
-                        other.tables["disks"][k][key] = one[key][part]
+                keep(other.tables["disks"][k], part)
                 yield other
         elif isinstance(one.get("count"), int) and one["count"] > 1:
             for count in (one["count"] // 2, one["count"] - 1):
                 other = scene.copy()
                 other.tables["disks"][k]["count"] = count
-                if isinstance(one.get("velocities"), list):
-                    other.tables["disks"][k]["velocities"] = one["velocities"][:count]
+                keep(other.tables["disks"][k], slice(count))
                 yield other
     for key in ("time", "collisions"):
         value = scene.table("run").get(key)

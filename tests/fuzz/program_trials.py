@@ -176,7 +176,8 @@ def sound(trial):
     expect(not verified.get("faults"), f"an invariant is broken: {(verified.get('faults') or [''])[0]}")
     if summary["stopped"] == "interrupted":
         raise Skipped("it takes too long")
-    expect(summary["stopped"] in ENDED, f"stopped: {summary['stopped']}")
+    blocked = summary["stopped"] == "blocked" and "changes" in trial.scene.tables and summary["blocked_by"]
+    expect(blocked or summary["stopped"] in ENDED, f"stopped: {summary['stopped']}")
     names = sorted(path.name for path in trial.main.iterdir())
     expect(not [name for name in names if name.endswith(".partial")], f"left in the directory: {names}")
     for name in names:
@@ -237,19 +238,24 @@ def box_of(trial, file, sample):
 
 
 def contact_distances(trial, file):
-    """The distance at which each pair of disks touches."""
+    """The distance at which each pair of disks touches, where that changes the least of all."""
     radii = file["particles/trajectory/radius"][()]
     sigma = radii[:, None] + radii[None, :]
-    mixture = trial.scene.table("non_additivity")
-    if not mixture or not len(radii):
-        return sigma
     kind = file["particles/trajectory/species"][()]
-    delta = np.where(np.eye(kind.max() + 1, dtype=bool), 0.0, mixture.get("delta", 0.0))
+    if not len(radii):
+        return sigma
+    deltas = [between(tables.get("non_additivity", {}), kind.max() + 1) for tables in trial.scene.stages()]
+    return sigma * (1.0 + np.min(deltas, axis=0)[kind[:, None], kind[None, :]])
+
+
+def between(mixture, kinds):
+    """delta of each two species."""
+    delta = np.where(np.eye(kinds, dtype=bool), 0.0, mixture.get("delta", 0.0))
     for pair in mixture.get("pairs", []):
-        if max(pair["species"]) <= kind.max():  # a species may have no disks
+        if max(pair["species"]) < kinds:  # a species may have no disks
             one, other = pair["species"]
             delta[one, other] = delta[other, one] = pair["delta"]
-    return sigma * (1.0 + delta[kind[:, None], kind[None, :]])
+    return delta
 
 
 def disks_apart(trial, file):
@@ -272,6 +278,9 @@ def disks_apart(trial, file):
             r = r - file["particles/trajectory/image/value"][sample][:, :2] * (upper - lower)
         margin = 1e-11 * (upper - lower) + 32.0 * place
         out = np.where(periodic, (r < lower - margin) | (r > upper + margin), (r - radii[:, None] * scale < lower - margin) | (r + radii[:, None] * scale > upper + margin))
+        if circle := trial.scene.table("box").get("circle"):
+            from_centre = np.linalg.norm(r - [trial.scene.number(c) for c in circle["centre"]], axis=1)
+            out |= (from_centre + radii * scale > trial.scene.number(circle["radius"]) + margin.max())[:, None]
         expect(not out.any(), f"sample {sample}: disk {np.argwhere(out)[:1].tolist()} is out of the box")
         deepest = deepest_overlap(r, sigma * scale, upper - lower, periodic, slide)
         expect(deepest <= bound + 64.0 * place / smallest, f"sample {sample}: an overlap of {deepest:.3g}")
@@ -307,49 +316,50 @@ def deepest_overlap(r, sigma, lengths, periodic, slide):
 
 def pull_of(trial, lengths):
     """The largest acceleration of a disk or piston."""
-    scene = trial.scene
-    pull = [abs(scene.number(g)) for g in scene.table("gravity").get("acceleration", [])]
-    for wall in scene.table("walls").values():
-        if "mass" in wall:
-            pull.append(scene.number(wall["load"]) * max(lengths) / scene.number(wall["mass"]))
+    number = trial.scene.number
+    pull = []
+    for tables in trial.scene.stages():
+        pull += [abs(number(g)) for g in tables.get("gravity", {}).get("acceleration", [])]
+        pull += [number(wall["load"]) * max(lengths) / number(wall["mass"]) for wall in tables.get("walls", {}).values() if "mass" in wall]
     return max(pull, default=0.0)
 
 
 def energy_and_momentum(trial, file):
     """As tests/support/fighter.hpp has it: every event rounds what it moves, and weights are placed to some roundings of the box."""
-    summary, tables, number = trial.summary, trial.scene.tables, trial.scene.number
+    summary, stages, number = trial.summary, list(trial.scene.stages()), trial.scene.number
+    tables = set().union(*stages)
+    walls = [wall for stage in stages for wall in stage.get("walls", {}).values()]
     if "time" not in summary or not summary["disks"]:
         return
     energy, events = summary["energy"], summary["events"]
     masses, radii = file["particles/trajectory/mass"][()], file["particles/trajectory/radius"][()]
-    gives = any(name in tables for name in ("walls", "growth", "thermostat", "shear", "drag")) or {"restitution", "roughness"} & set(tables["collision"])
+    gives = {"walls", "growth", "thermostat", "brownian", "shear", "drag", "changes"} & tables or {"restitution", "roughness"} & set(stages[0]["collision"])
     turnover = abs(energy["initial"]) + sum(abs(part) for part in energy.get("parts", {"all": energy["final"]}).values()) + abs(summary.get("dissipated", 0.0))
-    turnover += sum(abs(summary.get(name, {}).get("energy", 0.0)) for name in ("thermostat", "growth", "shear"))
+    turnover += sum(abs(summary.get(name, {}).get("energy", 0.0)) for name in ("thermostat", "brownian", "growth", "shear", "changes"))
     turnover += sum(abs(wall.get("energy", 0.0)) for wall in summary.get("walls", {}).values())
     turnover += np.abs(file["observables/kinetic_energy/value"][()]).max(initial=0.0)
     places = file["events/start/position"][()]
     place = np.abs(places).max(initial=0.0)
     lengths = np.ptp(places, axis=0) + 4.0 * radii.max()
-    weight = math.hypot(*map(number, tables["gravity"]["acceleration"])) * masses if "gravity" in tables else 0.0 * masses
-    loads = sum(number(wall["load"]) * max(lengths) for wall in tables.get("walls", {}).values() if "load" in wall)
+    weight = max(math.hypot(*map(number, stage["gravity"]["acceleration"])) if "gravity" in stage else 0.0 for stage in stages) * masses
+    loads = sum(number(wall["load"]) * max(lengths) for wall in walls if "load" in wall)
     bounces = events["wall"] + events.get("obstacle", 0)
     all_events = bounces + events["pair"] + events.get("well", 0) + events.get("step", 0)
-    turnover += abs(events.get("well", 0)) * number(tables["square_well"]["depth"]) if "square_well" in tables else 0.0
-    if "stepped_potential" in tables:
-        turnover += 2.0 * events.get("step", 0) * max(abs(number(step["energy"])) for step in tables["stepped_potential"]["steps"])
-    turnover = abs(turnover)
+    turnover += events.get("well", 0) * max(abs(number(stage["square_well"]["depth"])) if "square_well" in stage else 0.0 for stage in stages)
+    energies = [abs(number(step["energy"])) for stage in stages for step in stage.get("stepped_potential", {}).get("steps", [])]
+    turnover += 2.0 * events.get("step", 0) * max(energies, default=0.0)
     slack = 16.0 * EPSILON * place * (2.0 * (weight.sum() + loads) + 2.0 * all_events * (weight.max() + loads))
     slack += bounces * 2.0**-40 * radii.max() * (weight.max() + loads)
     if "growth" in tables:
         scale = summary["growth"]["scale"]
-        turnover += (bounces + events["pair"]) * 4.0 * masses.max() * (2.0 * radii.max() * scale * number(tables["growth"]["rate"])) ** 2
+        turnover += (bounces + events["pair"]) * 4.0 * masses.max() * (2.0 * radii.max() * scale * max(number(stage["growth"]["rate"]) for stage in stages)) ** 2
     if "supplied" in energy or not gives:
         change = energy["final"] - energy["initial"] - energy.get("supplied", 0.0)
         expect(abs(change) <= 1e-11 * turnover + slack, f"energy changed by {change:.3g} of {turnover:.3g} unexplained ({slack:.3g} for weights)")
-    thermal = any("temperature" in wall for wall in tables.get("walls", {}).values())
+    thermal = any("temperature" in wall for wall in walls)
     _, _, periodic = box_of(trial, file, 0) if len(file["particles/trajectory/box/edges/value"]) else (0, 0, boundary_words(file))
     for axis in (0, 1):
-        if not periodic[axis] or thermal or {"obstacles", "thermostat", "shear", "growth", "drag"} & set(tables):
+        if not periodic[axis] or thermal or {"obstacles", "thermostat", "tumbling", "brownian", "shear", "growth", "drag", "changes"} & tables:
             continue
         gained = summary["momentum"]["final"][axis] - summary["momentum"]["initial"][axis]
         size = np.sqrt(2.0 * masses * turnover).sum()
@@ -455,7 +465,7 @@ def analyze(trial):
 
     if not isinstance(dt, float):
         dt = seconds(span / r.uniform(2.0, 30.0))
-    scene = scene.without("run.sample_log", "output").set("run", sample_every=dt).set("output", events=True)
+    scene = scene.without("run.sample_log", "output", "observe.work").set("run", sample_every=dt).set("output", events=True)
     for name, settings in scene.tables["observe"].items():
         settings = dict(settings) if isinstance(settings, dict) else {}
         if r.random() < 0.7 or "every" in settings:
@@ -631,6 +641,8 @@ def engines(trial):
         edges = box_edges(file)
     options = ["--events", "--walltime", f"{round(WALLTIME * trial.program.patience)}s"]
     if len(times) > 1500 and "equilibrate" not in trial.scene.table("run"):
+        if "changes" in scene.tables:
+            scene.tables["changes"] = [change for change in scene.tables["changes"] if scene.number(change["time"]) < times[1500]]
         options += ["--set", f"run.time={times[1500]!r}"]
     chosen = Log(trial.run("engine-auto", *options, scene=scene))
     fighters, covered = [chosen], []
@@ -653,7 +665,7 @@ def engines(trial):
     others = [finer] + [log for log in nudged if log is not None]
     if len(others) < 3:
         raise Skipped("the start cannot be nudged")
-    stops = scene.tables["collision"].get("restitution", 1.0) <= 1e-5
+    stops = min(stage["collision"].get("restitution", 1.0) for stage in scene.stages()) <= 1e-5
     textbook = chosen if chosen.engine == "textbook" else fighters[-2]
     count = determined(textbook, others, disks, max(edges), pull, stops)
     for one, other in zip(fighters, fighters[1:]):
@@ -665,10 +677,18 @@ def engines(trial):
 
 
 def box_edges(file):
-    """The sides of the box of the start; without samples those of the resolved scene."""
+    """The sides of the box as the scene has it."""
+    return [np.ptp(limits) for limits in box_limits(file)]
+
+
+def box_limits(file):
+    """The lower and upper limit of the box in x and y as the scene has it."""
     text = file["parameters"].attrs["resolved_scene"]
     text = text.decode() if isinstance(text, bytes) else text
-    return [np.ptp(json.loads(re.search(rf"^{axis} = (\[.*\])$", text, re.M).group(1))) for axis in "xy"]
+    if circle := re.search(r"^circle = { centre = (\[.*\]), radius = (.*) }$", text, re.M):
+        radius = float(circle.group(2))
+        return [[c - radius, c + radius] for c in json.loads(circle.group(1))]
+    return [json.loads(re.search(rf"^{axis} = (\[.*\])$", text, re.M).group(1)) for axis in "xy"]
 
 
 def nudge(trial, scene, start, by, edges, options):
@@ -679,9 +699,7 @@ def nudge(trial, scene, start, by, edges, options):
     other.units = (0, 0, 0)
     places = start.start["position"]
     with h5py.File(trial.main / "trajectory.h5md") as file:
-        text = file["parameters"].attrs["resolved_scene"]
-    text = text.decode() if isinstance(text, bytes) else text
-    limits = [json.loads(re.search(rf"^{axis} = (\[.*\])$", text, re.M).group(1)) for axis in "xy"]
+        limits = box_limits(file)
     moved = places.copy()
     for axis in (0, 1):
         step = by * EPSILON * max(abs(limit) for limit in limits[axis])
@@ -692,7 +710,8 @@ def nudge(trial, scene, start, by, edges, options):
     name = f"nudged{'+' if by > 0 else '-'}"
     files = {f"{name}{kind}.csv": rows[start.species == kind] for kind in range(len(scene.tables["disks"]))}
     other = rewritten(scene, trial)
-    other.tables["box"] = {"x": limits[0], "y": limits[1], "boundary": scene.tables["box"]["boundary"]}
+    if "circle" not in other.tables["box"]:
+        other.tables["box"] = {"x": limits[0], "y": limits[1], "boundary": scene.tables["box"]["boundary"]}
     other.tables["disks"] = [{"positions": {"file": file}} for file in files]
     other.start_files = {file: (["x", "y", "vx", "vy", "radius", "mass"], disks.tolist()) for file, disks in files.items()}
     other.tables["run"] |= {"accept_overlap": True, "keep_momentum": True}
@@ -708,7 +727,7 @@ def rewritten(scene, trial):
         if isinstance(value, Quantity):
             return scene.number(value)
         if isinstance(value, dict):
-            return {key: plain(item) for key, item in value.items()}
+            return type(value)((key, plain(item)) for key, item in value.items())
         return [plain(item) for item in value] if isinstance(value, list) else value
 
     other = scene.copy()
