@@ -36,7 +36,7 @@ std::optional<Scene> any_scene() {
 
 /// Whether random numbers act, which belong to disks and walls by their names.
 bool draws(const Effects& effects) {
-  return effects.thermostat ||
+  return effects.thermostat || effects.tumbling || effects.brownian ||
          std::any_of(effects.walls.begin(), effects.walls.end(), [](const auto& wall) { return wall.temperature; });
 }
 
@@ -90,6 +90,7 @@ Scene mirrored(Scene scene) {
       const double from = arc->from;
       arc->from = 180.0 - arc->to, arc->to = 180.0 - from;
     }
+  if (effects.circle) turn(effects.circle->centre);
   if (effects.gravity) turn(effects.gravity->acceleration);
   std::swap(effects.walls[0], effects.walls[1]);
   for (const std::size_t side : {0U, 1U})
@@ -178,6 +179,9 @@ Scene in_other_units(Scene scene, int a, int b) {
   for (WallProperties& wall : effects.walls) {
     scale_if(wall.temperature, 2 * (a - b));
     scale_if(wall.velocity, a - b);
+    scale_if(wall.tangential_velocity, a - b);
+    scale_if(wall.vibration, a - b);
+    if (wall.oscillation) scale(wall.oscillation->amplitude, a), scale(wall.oscillation->frequency, -b);
     scale_if(wall.load, -2 * b);  // force per length
   }
   for_all_points(effects.obstacles, [&](Eigen::Vector2d& point) { scale_both(point, a); });
@@ -186,8 +190,11 @@ Scene in_other_units(Scene scene, int a, int b) {
       scale(disk->radius, a);
     else if (auto* arc = std::get_if<ArcObstacle>(&obstacle))
       scale(arc->radius, a);
+  if (effects.circle) scale_both(effects.circle->centre, a), scale(effects.circle->radius, a);
   if (effects.growth) scale(effects.growth->rate, -b);
   if (effects.thermostat) scale(effects.thermostat->temperature, 2 * (a - b)), scale(effects.thermostat->rate, -b);
+  if (effects.tumbling) scale(effects.tumbling->rate, -b);
+  if (effects.brownian) scale(effects.brownian->temperature, 2 * (a - b)), scale(effects.brownian->rate, -b);
   if (effects.shear) scale(effects.shear->rate, -b);
   if (effects.square_well) scale(effects.square_well->depth, 2 * (a - b));
   if (effects.stepped_potential)

@@ -148,6 +148,32 @@ inline std::string decoded_effects(Bytes& bytes, const std::array<double, 4>& bo
   return text;
 }
 
+/// Walls that vibrate or slide, where the scene has no others.
+inline std::string decoded_restless_walls(Bytes& bytes, const std::string& scene, double side, bool walls_x, bool walls_y) {
+  std::string text;
+  for (const char* wall : {"left", "right", "bottom", "top"}) {
+    const bool along_x = wall[0] == 'l' || wall[0] == 'r';
+    if (!(along_x ? walls_x : walls_y) || scene.find(fmt::format("\n{} = ", wall)) != std::string::npos || !bytes.flag())
+      continue;
+    text += fmt::format("[walls.{}]\n", wall);
+    const int kind = bytes.below(4);
+    if (kind == 0) {
+      const double temperature = bytes.positive(), velocity = bytes.component();
+      text += fmt::format("temperature = {}\ntangential_velocity = {}\n", temperature, velocity);
+      continue;
+    }
+    if (kind == 1) {
+      text += fmt::format("vibration = {}\n", bytes.unit());
+    } else {
+      const double amplitude = 0.1 * side * bytes.unit(), frequency = bytes.positive(), phase = bytes.unit();
+      text += fmt::format("vibration = {{ form = \"{}\", amplitude = {}, frequency = {}, phase = {} }}\n",
+                          kind == 2 ? "sine" : "sawtooth", amplitude, frequency, phase);
+    }
+    if (bytes.flag()) text += fmt::format("restitution = {}\n", bytes.unit());
+  }
+  return text;
+}
+
 }  // namespace decoding
 
 /// The scene in the words of the scene format.
@@ -159,10 +185,10 @@ inline std::string decoded_scene(std::span<const std::uint8_t> data) {
   const std::array<double, 4> box = {x, x + side * aspect, y, y + side};
   const int boundary = bytes.below(4);
   const bool walls_x = (boundary & 1) != 0, walls_y = (boundary & 2) != 0;
-  std::string text = fmt::format("[box]\nx = [{}, {}]\ny = [{}, {}]\nboundary = {{ x = \"{}\", y = \"{}\" }}\n", box[0], box[1],
-                                 box[2], box[3], walls_x ? "walls" : "periodic", walls_y ? "walls" : "periodic");
+  std::string box_text = fmt::format("[box]\nx = [{}, {}]\ny = [{}, {}]\nboundary = {{ x = \"{}\", y = \"{}\" }}\n", box[0],
+                                     box[1], box[2], box[3], walls_x ? "walls" : "periodic", walls_y ? "walls" : "periodic");
   double heaviest = 0.0;
-  text += decoding::decoded_disks(bytes, box, heaviest);
+  std::string text = decoding::decoded_disks(bytes, box, heaviest);
   const bool specular = bytes.flag();
   text += fmt::format("[collision]\nrule = \"{}\"\n", specular ? "specular" : "reversal");
   const int contact = bytes.next();
@@ -176,7 +202,31 @@ inline std::string decoded_scene(std::span<const std::uint8_t> data) {
     text += fmt::format("[non_additivity]\ndelta = {}\n", delta);
     if (bytes.flag()) text += fmt::format("pairs = [{{ species = [0, 1], delta = {} }}]\n", of_first_two);
   }
-  return text;
+  const auto has = [&](const char* table) { return text.find(table) != std::string::npos; };
+  switch (bytes.below(8)) {
+    case 1:
+      if (!has("[thermostat]") && !has("[shear]")) text += fmt::format("[tumbling]\nrate = {}\n", bytes.positive());
+      break;
+    case 2:
+      if (!has("[thermostat]")) {
+        const double temperature = bytes.positive(), rate = bytes.positive();
+        text += fmt::format("[brownian]\ntemperature = {}\nrate = {}\n", temperature, rate);
+      }
+      break;
+    case 3:  // round the corners of the box
+      if (!has("[walls]") && !has("[shear]"))
+        box_text = fmt::format("[box]\ncircle = {{ centre = [{}, {}], radius = {} }}\n", (box[0] + box[1]) / 2.0,
+                               (box[2] + box[3]) / 2.0, 0.5001 * std::hypot(box[1] - box[0], box[3] - box[2]));
+      break;
+    case 4:
+    case 5:
+    case 6:
+      text += decoding::decoded_restless_walls(bytes, text, side, walls_x, walls_y);
+      break;
+    default:
+      break;
+  }
+  return box_text + text;
 }
 
 }  // namespace carom::test

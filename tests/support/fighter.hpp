@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,7 +32,8 @@ struct Fighter {
 inline bool passes_momentum_only_between_disks(const Scene& scene, int axis) {
   const Effects& effects = scene.effects;
   const bool thermal = std::any_of(effects.walls.begin(), effects.walls.end(), [](const auto& wall) { return wall.temperature; });
-  return scene.box.periodic(axis) && effects.obstacles.empty() && !thermal && !effects.thermostat && !effects.shear;
+  const bool redrawn = effects.thermostat || effects.tumbling || effects.brownian;
+  return scene.box.periodic(axis) && effects.obstacles.empty() && !thermal && !redrawn && !effects.shear;
 }
 
 /// How far the energy of weights may be off. Places are rounded, those of all at the start and the end and those of one or two
@@ -62,11 +65,14 @@ inline double pumped(const Scene& scene, const Disks& disks, const Totals& total
   return static_cast<double>(totals.pair + totals.wall + totals.obstacle) * 4.0 * heaviest * speed * speed;
 }
 
-/// The largest acceleration of a disk or piston.
+/// The largest acceleration of a disk, a piston or a wall that vibrates.
 inline double pull(const Scene& scene) {
   double most = scene.effects.gravity ? scene.effects.gravity->acceleration.norm() : 0.0;
-  for (const WallProperties& wall : scene.effects.walls)
+  for (const WallProperties& wall : scene.effects.walls) {
     if (wall.mass) most = std::max(most, wall.load.value_or(0.0) * scene.box.lengths().maxCoeff() / *wall.mass);
+    if (const std::optional<Oscillation>& motion = wall.oscillation)
+      most = std::max(most, motion->amplitude * std::pow(2.0 * std::numbers::pi * motion->frequency, 2));
+  }
   return most;
 }
 
