@@ -25,6 +25,7 @@ set(terminal_may_use io observe simulation scene text core)
 set(studies_may_use terminal pages io observe theory simulation effects neighbours scene text core)
 # Each folder of studies/ is a slice that uses what all of them share (the files of studies/ itself), and no other slice but these.
 set(compare_uses_slices studies/horizon studies/diff)
+set(validate_uses_slices studies/horizon)
 file(GLOB slices RELATIVE ${SOURCE_DIR}/src ${SOURCE_DIR}/src/studies/*)
 list(FILTER slices EXCLUDE REGEX "[.]")
 foreach(slice IN LISTS slices)

@@ -48,6 +48,7 @@ void add_flows(std::vector<Trial>& trials);
 void add_rough_gas(std::vector<Trial>& trials);
 void add_fluctuations(std::vector<Trial>& trials);
 void add_percolation(std::vector<Trial>& trials);
+void add_chaos(std::vector<Trial>& trials);
 void add_fixed_steps(std::vector<Trial>& trials);
 
 /// All, in the order in which they run.

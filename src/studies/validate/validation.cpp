@@ -39,6 +39,7 @@ const std::vector<Trial>& all_trials() {
     add_rough_gas(list);
     add_fluctuations(list);
     add_percolation(list);
+    add_chaos(list);
     add_fixed_steps(list);
     return list;
   }();
