@@ -248,20 +248,19 @@ function showLegend() {
   const legend = byId("legend");
   const colouring = colourings[settings.colour];
   legend.replaceChildren();
-  if (colouring.isKind) {
-    run.description.species.slice(0, 6).forEach((one, k) => {
+  if (colouring.kinds) {
+    for (const { name, colour } of colouring.kinds().filter((kind) => kind.name !== "").slice(0, 6)) {
       const item = document.createElement("span");
       item.className = "kind";
-      item.style.setProperty("--swatch", kinds[k % kinds.length]);
-      item.textContent = `${t(`species.${one.name}`).replace("species.", "")} (${one.count})`;
+      item.style.setProperty("--swatch", colour);
+      item.textContent = name;
       legend.append(item);
-    });
+    }
     return;
   }
   const ends = colouring.ends?.() ?? ["←", "→"];
   const bar = document.createElement("i");
-  const colours = colouring.isWheel ? wheel : scaleColours(settings.palette, theme.isDark);
-  bar.style.background = `linear-gradient(to right, ${colours.join(",")})`;
+  bar.style.background = `linear-gradient(to right, ${coloursOf(colouring).join(",")})`;
   const [low, high] = ends.map((end) => Object.assign(document.createElement("b"), { textContent: end }));
   const unit = Object.assign(document.createElement("small"), { textContent: unitText(colouring.unit ?? "") });
   legend.append(Object.assign(document.createElement("em"), { textContent: t(`colour.${settings.colour}`) }), low, bar, high, unit);

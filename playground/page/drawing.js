@@ -1,23 +1,44 @@
 // Draws a moment: disks in their colours, and above them the box, the obstacles, paths and arrows.
 "use strict";
 
+/// The quantities that colours can show: `value` is a number from 0 to 1 for each disk, `kind` the number of its kind, whose names and
+/// colours are those of `kinds`. `colours` are those of the scale where they are not the reader's choice; `isCut` says which disks have no
+/// value.
 const colourings = {
-  speed: { prepare: () => {}, value: (i) => Math.sqrt(run.vx[i] ** 2 + run.vy[i] ** 2) / (2.5 * run.speedScale), ends: () => ["0", `≥ ${short(2.5 * run.speedScale)}`], unit: "length / time" },
-  energy: { prepare: () => {}, value: (i) => (run.mass[i] * (run.vx[i] ** 2 + run.vy[i] ** 2)) / (6 * Math.max(run.numbers[at.kT], 1e-300)), ends: () => ["0", `≥ ${short(3 * run.numbers[at.kT])}`], unit: "energy" },
-  species: { isKind: true },
-  direction: { prepare: () => {}, isWheel: true, value: (i) => Math.atan2(run.vy[i], run.vx[i]) / (2 * Math.PI) + 0.5 },
-  id: { prepare: () => {}, value: (i) => i / Math.max(disks - 1, 1), ends: () => ["0", String(disks - 1)] },
-  psi6: {
-    prepare: () => {
-      if (order.size.length !== disks) for (const name of Object.keys(order)) order[name] = new Float64Array(disks);
-      const walls = ["left", "right", "bottom", "top"].map((side) => run.numbers[at[side]]);
-      if (disks >= 3 && disks <= 5000) findOrder({ x: run.x, y: run.y, walls, displacement: run.numbers[at.shift] }, order);
-    },
-    value: (i) => order.size[i], ends: () => ["0", "1"],
+  speed: { value: (i) => Math.sqrt(run.vx[i] ** 2 + run.vy[i] ** 2) / (2.5 * run.speedScale), ends: () => ["0", `≥ ${short(2.5 * run.speedScale)}`], unit: "length / time" },
+  energy: { value: (i) => (run.mass[i] * (run.vx[i] ** 2 + run.vy[i] ** 2)) / (6 * Math.max(run.numbers[at.kT], 1e-300)), ends: () => ["0", `≥ ${short(3 * run.numbers[at.kT])}`], unit: "energy" },
+  species: {
+    kind: (i) => run.species[i] % kinds.length,
+    kinds: () => kinds.map((colour, k) => ({ colour, name: speciesWords(k) })),
+  },
+  direction: { colours: () => wheel, value: (i) => Math.atan2(run.vy[i], run.vx[i]) / (2 * Math.PI) + 0.5 },
+  id: { value: (i) => i / Math.max(disks - 1, 1), ends: () => ["0", String(disks - 1)] },
+  psi6: { value: (i) => order.size[i], ends: () => ["0", "1"] },
+  psi6_angle: { colours: () => circleColours, value: (i) => axisOf(order, i), ends: () => ["−30°", "30°"] },
+  neighbours: {
+    kind: (i) => neighbourKind(order, i),
+    kinds: () => ["≤ 4", "5", "6", "7", `≥ 8 ${t("colour.neighbours")}`].map((name, k) => ({ name, colour: neighbourColours(theme.isDark)[k] })),
   },
 };
 const order = { re: new Float64Array(), im: new Float64Array(), size: new Float64Array(), neighbours: new Float64Array() };
-let psiAt = 0;
+let orderAt = 0;  // when it was found
+for (const name of ["psi6", "psi6_angle", "neighbours"])
+  Object.assign(colourings[name], {
+    isCut: (i) => order.neighbours[i] === 0,
+    prepare: () => {
+      if (order.size.length !== disks) for (const name of Object.keys(order)) order[name] = new Float64Array(disks);
+      else if (disks >= 600 && performance.now() - orderAt < 150) return;
+      const walls = ["left", "right", "bottom", "top"].map((side) => run.numbers[at[side]]);
+      if (disks >= 3 && disks <= 5000) findOrder({ x: run.x, y: run.y, walls, displacement: run.numbers[at.shift] }, order);
+      orderAt = performance.now();
+    },
+  });
+
+/// The name of a species and its number of disks; empty where there is none.
+function speciesWords(k) {
+  const one = run.description.species[k];
+  return one ? `${t(`species.${one.name}`).replace("species.", "")} (${one.count})` : "";
+}
 
 const wheel = Array.from({ length: colourSteps }, (_, k) => {
   const part = (shift) => Math.round(127 + 90 * Math.cos(2 * Math.PI * (k / colourSteps - shift))).toString(16).padStart(2, "0");
@@ -33,10 +54,9 @@ function setPalette() {
   const key = `${settings.colour} ${settings.palette} ${theme.isDark}`;
   if (key === paletteShown) return;
   paletteShown = key;
-  const scale = colouring.isKind ? kinds : colouring.isWheel ? wheel : scaleColours(settings.palette, theme.isDark);
-  drawer.setPalette([...scale, theme.fault]);  // the last is that of overlapping disks
+  drawer.setPalette([...coloursOf(colouring), theme.fault, theme.frame]);  // the last are those of overlapping disks, and of disks without a value
 }
-const colourCount = () => (colourings[settings.colour].isKind ? kinds.length : colourSteps);
+const coloursOf = (colouring) => colouring.kinds?.().map((kind) => kind.colour) ?? colouring.colours?.() ?? scaleColours(settings.palette, theme.isDark);
 
 /// Fills the instances with places in a pane's pixels.
 function fill(x, y, pane, marks) {
@@ -44,7 +64,7 @@ function fill(x, y, pane, marks) {
   if (instances.length < 4 * count) instances = new Float32Array(4 * count + 400);
   const colouring = colourings[settings.colour];
   const scale = run.numbers[at.scale] * view.scale;
-  const colours = colourCount();
+  const colours = coloursOf(colouring).length;
   const own = [run.vx, run.vy];
   // The twin's colours are those of its own speeds.
   if (x !== run.x) [run.vx, run.vy] = [2, 3].map((k) => run.twin.subarray(k * count, (k + 1) * count));
@@ -69,8 +89,8 @@ function fill(x, y, pane, marks) {
     const px = pixelX(x[i], pane);
     const py = pixelY(y[i], pane);
     const r = Math.max(run.radius[i] * scale, 0.75);
-    const share = colouring.isKind ? run.species[i] % kinds.length : Math.max(0, Math.min(colours - 1, Math.floor(colouring.value(i) * colours))) || 0;
-    const colour = marks?.[i] ? colours : share;
+    const share = colouring.kind?.(i) ?? (Math.max(0, Math.min(colours - 1, Math.floor(colouring.value(i) * colours))) || 0);
+    const colour = marks?.[i] ? colours : colouring.isCut?.(i) ? colours + 1 : share;
     put(px, py, r, colour);
     // The images of a disk that an edge of a periodic box cuts.
     const across = !box.periodic[0] ? 0 : px - r < edge.left ? 1 : px + r > edge.right ? -1 : 0;
@@ -101,11 +121,7 @@ function draw() {
     view.y = run.y[settings.followed];
   }
   setPalette();
-  const colouring = colourings[settings.colour];
-  if (colouring.prepare && (settings.colour !== "psi6" || disks < 600 || performance.now() - psiAt > 150)) {
-    colouring.prepare();
-    psiAt = performance.now();
-  }
+  colourings[settings.colour].prepare?.();
   const isOutlined = run.largest * run.numbers[at.scale] * view.scale > 3;
   drawer.begin();
   panes.forEach((pane, k) => {

@@ -293,6 +293,45 @@ await test("screens", async () => {
   check("the address gives the start", (await ask("carom.run.description.disks")) === 80);
 });
 
+// In a triangular lattice every disk has six neighbours, and ψ6 is 1.
+await test("colours", async () => {
+  const lattice = `[box]\nx = [0, 6]\ny = [0, ${3 * Math.sqrt(3)}]\nboundary = "periodic"\n[[disks]]\ncount = 36\nradius = 0.4\nmass = 1
+positions = "hexagonal"\nvelocities = "rest"\n[collision]\nrule = "specular"\n[run]\ntime = 1\n`;
+  for (const scheme of ["light", "dark"]) {
+    await browser.media({ still: true, scheme });
+    await browser.open(`${address}?draw=canvas&play=0`);
+    const choose = (colour) =>
+      ask(`(() => { const list = document.getElementById("colour"); list.value = "${colour}"; list.dispatchEvent(new Event("change")); return [...document.querySelectorAll("#legend .kind, #legend b")].map((one) => one.textContent); })()`);
+    /// The colours of pixels well inside of disks.
+    const inside = async () => {
+      await pause(200);
+      return ask(`(() => {
+        const stage = document.getElementById("stage"), [l, b] = carom.run.description.lower, [u, t] = carom.run.description.upper;
+        const s = 0.9 * Math.min(stage.width / (u - l), stage.height / (t - b));
+        const copy = new OffscreenCanvas(stage.width, stage.height).getContext("2d", { willReadFrequently: true });
+        copy.drawImage(stage, 0, 0);
+        const pixel = (i) => [...copy.getImageData(stage.width / 2 + (carom.run.x[i] - (l + u) / 2) * s, stage.height / 2 - (carom.run.y[i] - (b + t) / 2) * s, 1, 1).data.slice(0, 3)];
+        return [...new Set(Array.from(carom.run.x, (_, i) => pixel(i).map((part) => part.toString(16).padStart(2, "0")).join("")))];
+      })()`);
+    };
+    await ask(`carom.load(${JSON.stringify(lattice)})`);
+    const kinds = await choose("neighbours");
+    check("the legend names the numbers of neighbours", kinds.join() === "≤ 4,5,6,7,≥ 8 neighbours", kinds);
+    const six = await inside();
+    check(`in a ${scheme} crystal all have six`, six.join() === (scheme === "dark" ? "39424e" : "d5dae0"), six);
+    await choose("psi6");
+    const most = await inside();
+    check("and the colour of full order", most.join() === "fde725", most);
+    const ends = await choose("psi6_angle");
+    check("axes go from -30 to 30 degrees", ends.join() === "−30°,30°", ends);
+    check("and are all the same, to rounding between two colours", (await inside()).length <= 2, await inside());
+    await ask(`carom.load(${JSON.stringify(twoDisks)})`);
+    await choose("neighbours");
+    const cut = await inside();
+    check("disks without a cell of their own have no number", cut.length === 1 && !["39424e", "d5dae0", "e69f00"].includes(cut[0]), cut);
+  }
+});
+
 await test("component", async () => {
   // The package as a server gives it to a page: browsers take no modules from files.
   const own = `<!doctype html><title>boxes</title><script type="module" src="carom-box.js"></script>

@@ -3,6 +3,10 @@
 // crystal. Where centres form exact rectangles, both diagonals have length 0 and count as no sides.
 "use strict";
 
+/// The axes of psi from -30 to 30 degrees as a number from 0 to 1, and the kind of a disk in neighbourColours().
+const axisOf = (order, i) => Math.atan2(order.im[i], order.re[i]) / (2 * Math.PI) + 0.5;
+const neighbourKind = (order, i) => Math.min(Math.max(order.neighbours[i], 4), 8) - 4;
+
 const cellsOffered = disks >= 3 && disks <= 5000;
 
 /// Writes the real and imaginary part of psi, its size, and the number of neighbours of every disk into `order`; 0 neighbours where a

@@ -32,14 +32,14 @@ const colourings = {
     label: "axes of the sixfold order",
     colours: () => circleColours,
     ends: () => ["−30°", "30°"],
-    value: (moment, i) => Math.atan2(order.im[i], order.re[i]) / (2 * Math.PI) + 0.5,
+    value: (moment, i) => axisOf(order, i),
   },
   neighbours: {
     label: "neighbours",
     isKind: true,
     colours: () => neighbourColours(theme.isDark),
     names: () => ["≤ 4", "5", "6", "7", "≥ 8 neighbours"],
-    value: (moment, i) => Math.min(Math.max(order.neighbours[i], 4), 8) - 4,
+    value: (moment, i) => neighbourKind(order, i),
   },
 };
 for (const name of ["psi6", "psi6_angle", "neighbours"])
