@@ -445,12 +445,21 @@ Session& here() {
 
 std::string wall_json(const WallProperties& wall) {
   return fmt::format(
-      "{{\"restitution\":{},\"temperature\":{},\"velocity\":{},\"slides\":{},\"mass\":{},\"load\":{},\"amplitude\":{},"
-      "\"frequency\":{}}}",
+      "{{\"restitution\":{},\"temperature\":{},\"velocity\":{},\"slides\":{},\"mass\":{},\"load\":{},\"vibration\":{},"
+      "\"amplitude\":{},\"frequency\":{}}}",
       json_number(wall.restitution), json_number(wall.temperature), json_number(wall.velocity),
-      json_number(wall.tangential_velocity), json_number(wall.mass), json_number(wall.load),
+      json_number(wall.tangential_velocity), json_number(wall.mass), json_number(wall.load), json_number(wall.vibration),
       wall.oscillation ? json_number(wall.oscillation->amplitude) : "null",
       wall.oscillation ? json_number(wall.oscillation->frequency) : "null");
+}
+
+std::string steps_json(const Effects& effects) {
+  std::string text;
+  if (!effects.stepped_potential) return "[]";
+  for (const PotentialStep& step : effects.stepped_potential->steps)
+    text += fmt::format("{}{{\"width\":{},\"energy\":{}}}", text.empty() ? "" : ",", json_number(step.width),
+                        json_number(step.energy));
+  return "[" + text + "]";
 }
 
 std::string obstacles_json(const Effects& effects) {
@@ -516,7 +525,12 @@ std::string description(Session& session) {
       effects.square_well ? json_number(effects.square_well->width) : "null", json_text(simulation.engine()),
       json_text(why_no_Z(effects)), json_number(theory_Z(simulation)), json_number(scene.packing_fraction()),
       json_number(session.crossing()));
-  json += fmt::format("\"isCircle\":{},", scene.box.is_circle);
+  json +=
+      fmt::format("\"isCircle\":{},\"steps\":{},\"delta\":{},\"brownian\":{},", scene.box.is_circle, steps_json(effects),
+                  effects.non_additivity ? json_number(effects.non_additivity->delta) : "null",
+                  effects.brownian ? fmt::format("{{\"temperature\":{},\"rate\":{}}}", json_number(effects.brownian->temperature),
+                                                 json_number(effects.brownian->rate))
+                                   : "null");
   json += fmt::format("\"thermal\":[{},{}],\"seed\":{},\"changes\":{}}}", centre_of_mass_is_thermal(scene.box, effects, 0),
                       centre_of_mass_is_thermal(scene.box, effects, 1), session.run().first_scene().run.seed,
                       session.run().changes_made());

@@ -6,10 +6,26 @@ const setKeys = (...keys) => `set = [${keys.map((key) => JSON.stringify(key)).jo
 const wallSetting = (side) => ({
   least: 0, most: 10, step: 0.1, unit: "energy", zero: "insulated",
   value: (d) => d.walls[side].temperature ?? 0,
-  change: (v) => setKeys(`walls.${["left", "right", "bottom", "top"][side]}=${v > 0 ? `{ temperature = ${v} }` : "{ restitution = 1 }"}`),
+  change: (v) => setKeys(`walls.${sides[side]}=${v > 0 ? `{ temperature = ${v} }` : "{ restitution = 1 }"}`),
 });
 
-const vibratingFloor = (amplitude, frequency) => `walls.bottom={ vibration = { form = "sine", amplitude = ${amplitude}, frequency = ${frequency} } }`;
+const sides = ["left", "right", "bottom", "top"];
+/// A number of all walls that have it: `name` in the description, `key` in the scene.
+const numberOfWalls = (name, key) => ({
+  value: (d) => d.walls.find((wall) => wall[name] !== null)?.[name] ?? 0,
+  change: (v, d) => setKeys(...sides.filter((_, k) => d.walls[k][name] !== null).map((side) => `walls.${side}.${key}=${v}`)),
+});
+const slidingWall = (side) => ({
+  least: -3, most: 3, step: 0.1, unit: "length / time",
+  value: (d) => d.walls[side].slides ?? 0,
+  change: (v) => setKeys(`walls.${sides[side]}.tangential_velocity=${v}`),
+});
+/// The steps of a potential besides those with sliders of their own stay as they are.
+const stepEnergy = (k) => ({
+  least: -3, most: 3, step: 0.05, unit: "energy",
+  value: (d) => d.steps[k]?.energy ?? 0,
+  change: (v) => setKeys(`stepped_potential.steps.${k}.energy=${v}`),
+});
 
 const liveSettings = {
   gravity: { least: 0, most: 2, step: 0.01, unit: "length / time²", value: (d) => -d.gravity[1], change: (v) => setKeys(`gravity.acceleration=[0, ${-v || 0}]`) },
@@ -17,12 +33,12 @@ const liveSettings = {
   restitution: { least: 0.3, most: 1, step: 0.01, unit: "", value: (d) => d.restitution ?? 1, change: (v) => setKeys(`collision.restitution=${v}`, "collision.elastic_below={ time = 1e-3 }") },
   roughness: { least: -1, most: 1, step: 0.05, unit: "", value: (d) => d.roughness ?? -1, change: (v) => setKeys(`collision.roughness=${v}`) },
   rule: { choices: ["specular", "reversal"], value: (d) => d.rule, change: (v) => setKeys(`collision.rule="${v}"`) },
-  radius: { least: 0.05, most: 0.8, step: 0.01, unit: "length", value: (d) => d.species[0].radius, change: (v) => setKeys(`disks.0.radius=${v}`) },
-  mass0: { least: 0.1, most: 100, step: 0.1, logarithmic: true, unit: "mass", value: (d) => d.species[0].mass, change: (v) => setKeys(`disks.0.mass=${v}`) },
-  mass1: { least: 0.1, most: 100, step: 0.1, logarithmic: true, unit: "mass", value: (d) => d.species[1].mass, change: (v) => setKeys(`disks.1.mass=${v}`) },
+  radius: { least: 0.05, most: 0.8, step: 0.01, unit: "length", value: (d) => d.species[0]?.radius ?? 0.5, change: (v) => setKeys(`disks.0.radius=${v}`) },
+  mass0: { least: 0.1, most: 100, step: 0.1, logarithmic: true, unit: "mass", value: (d) => d.species[0]?.mass ?? 1, change: (v) => setKeys(`disks.0.mass=${v}`) },
+  mass1: { least: 0.1, most: 100, step: 0.1, logarithmic: true, unit: "mass", value: (d) => d.species[1]?.mass ?? 1, change: (v) => setKeys(`disks.1.mass=${v}`) },
   wallsT: {
     ...wallSetting(0),
-    change: (v) => setKeys(...["left", "right", "bottom", "top"].map((side) => `walls.${side}=${v > 0 ? `{ temperature = ${v} }` : "{ restitution = 1 }"}`)),
+    change: (v) => setKeys(...sides.map((side) => `walls.${side}=${v > 0 ? `{ temperature = ${v} }` : "{ restitution = 1 }"}`)),
   },
   leftT: wallSetting(0),
   rightT: wallSetting(1),
@@ -52,8 +68,19 @@ const liveSettings = {
     least: -3, most: 3, step: 0.1, unit: "length / time", value: (d) => d.walls[3].slides ?? 0,
     change: (v) => setKeys(`walls.top={ temperature = 1, tangential_velocity = ${v} }`, `walls.bottom={ temperature = 1, tangential_velocity = ${-v} }`),
   },
-  amplitude: { least: 0, most: 1.5, step: 0.05, unit: "length", value: (d) => d.walls[2].amplitude ?? 0, change: (v, d) => setKeys(vibratingFloor(v, d.walls[2].frequency ?? 1)) },
-  frequency: { least: 0.1, most: 5, step: 0.1, unit: "1 / time", value: (d) => d.walls[2].frequency ?? 1, change: (v, d) => setKeys(vibratingFloor(d.walls[2].amplitude ?? 0, v)) },
+  leftSlides: slidingWall(0),
+  rightSlides: slidingWall(1),
+  bottomSlides: slidingWall(2),
+  topSlides: slidingWall(3),
+  vibration: { least: 0, most: 5, step: 0.1, unit: "length / time", ...numberOfWalls("vibration", "vibration") },
+  amplitude: { least: 0, most: 1.5, step: 0.05, unit: "length", ...numberOfWalls("amplitude", "vibration.amplitude") },
+  frequency: { least: 0.1, most: 5, step: 0.1, unit: "1 / time", ...numberOfWalls("frequency", "vibration.frequency") },
+  brownianT: { least: 0.1, most: 5, step: 0.1, unit: "energy", value: (d) => d.brownian?.temperature ?? 1, change: (v) => setKeys(`brownian.temperature=${v}`) },
+  brownianRate: { least: 0, most: 20, step: 0.1, unit: "1 / time", value: (d) => d.brownian?.rate ?? 0, change: (v) => setKeys(`brownian.rate=${v}`) },
+  step0: stepEnergy(0),
+  step1: stepEnergy(1),
+  step2: stepEnergy(2),
+  nonAdditivity: { least: -0.5, most: 0.5, step: 0.01, unit: "", value: (d) => d.delta ?? 0, change: (v) => setKeys(`non_additivity.delta=${v}`) },
   growth: { least: 0, most: 0.1, step: 0.001, unit: "1 / time", value: (d) => d.growth ?? 0, change: (v) => setKeys(`growth={ rate = ${v}, until = { packing_fraction = 0.85 } }`) },
 };
 
@@ -65,10 +92,16 @@ function settingsOf(description) {
   found.push("restitution");
   if (description.species.length > 0 && description.species[0].uniform) found.push("radius", "mass0");
   if (description.species.length > 1 && description.species[1].uniform) found.push("mass1");
-  if (!acrossX && !acrossY && !description.isCircle && description.walls.every((wall) => wall.mass === null && !wall.velocity)) found.push("wallsT");
-  for (const [name, isThere] of [["thermostat", true], ["shear", description.shear !== null], ["drag", true], ["tumbling", description.tumbling !== null], ["growth", description.growth !== null], ["wellDepth", description.wellDepth !== null],
-    ["roughness", description.roughness !== null], ["load", description.walls[3].mass !== null], ["pistonMass", description.walls[3].mass !== null]])
+  if (!acrossX && !acrossY && !description.isCircle && description.walls.every((wall) => ["mass", "slides", "vibration", "amplitude"].every((key) => wall[key] === null) && !wall.velocity)) found.push("wallsT");
+  const { walls, steps } = description;
+  const isBrownian = description.brownian !== null;
+  for (const [name, isThere] of [["thermostat", !isBrownian && description.tumbling === null], ["shear", description.shear !== null], ["drag", true], ["tumbling", description.tumbling !== null],
+    ["brownianT", isBrownian], ["brownianRate", isBrownian], ["growth", description.growth !== null], ["wellDepth", description.wellDepth !== null], ["nonAdditivity", description.delta !== null],
+    ["roughness", description.roughness !== null], ["load", walls[3].mass !== null], ["pistonMass", walls[3].mass !== null]])
     if (isThere) found.push(name);
+  for (const k of [0, 1, 2]) if (k < steps.length) found.push(`step${k}`);
+  sides.forEach((side, k) => walls[k].slides !== null && found.push(`${side}Slides`));
+  for (const [name, key] of [["vibration", "vibration"], ["amplitude", "amplitude"], ["frequency", "amplitude"]]) if (walls.some((wall) => wall[key] !== null)) found.push(name);
   found.push("rule");
   return found;
 }

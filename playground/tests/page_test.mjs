@@ -50,6 +50,25 @@ async function test(name, work) {
   check(`${name}: no error in the console`, found === "", found);
 }
 
+/// Moves every slider to its ends and back, and returns those that the engine refuses to follow.
+const stuckSliders = () =>
+  ask(`(async () => {
+    const note = document.getElementById("notice");
+    const stuck = [];
+    for (const input of document.querySelectorAll("#liveSettings input[type=range]")) {
+      let moves = 0;
+      for (const value of [input.max, input.min, input.value]) {
+        note.hidden = true;
+        input.value = value;
+        input.dispatchEvent(new Event("input"));
+        await carom.stateHash();  // the engine answers in turn
+        if (note.hidden) ++moves;
+      }
+      if (moves === 0) stuck.push(input.dataset.setting);
+    }
+    return stuck;
+  })()`);
+
 const twoDisks = `box = { x = [0, 10], y = [0, 10], boundary = "walls" }
 collision = { rule = "specular" }
 run = { time = 100 }
@@ -80,23 +99,7 @@ await test("scenes", async () => {
     await pause(isLong ? 10000 : 250);
     check(`${id}: time passes`, (await time()) > 0);
     check(`${id}: no notice`, (await notice()) === "" || isLong, await notice());
-    // Every slider to its ends and back, while it runs.
-    const stuck = await ask(`(async () => {
-      const note = document.getElementById("notice");
-      const stuck = [];
-      for (const input of document.querySelectorAll("#liveSettings input[type=range]")) {
-        let moves = 0;
-        for (const value of [input.max, input.min, input.value]) {
-          note.hidden = true;
-          input.value = value;
-          input.dispatchEvent(new Event("input"));
-          await carom.stateHash();  // the engine answers in turn
-          if (note.hidden) ++moves;
-        }
-        if (moves === 0) stuck.push(input.dataset.setting);
-      }
-      return stuck;
-    })()`);
+    const stuck = await stuckSliders();
     check(`${id}: every slider moves something`, stuck.length === 0, stuck);
     await clear();
     check(`${id}: no error`, (await errors()) === "", await errors());
@@ -128,6 +131,38 @@ await test("walls", async () => {
   await slide(0);
   await pause(200);
   check("and insulates them again", (await ask("carom.run.description.walls.every((wall) => wall.temperature === null)")) && (await notice()) === "", await notice());
+});
+
+await test("settings of scenes from elsewhere", async () => {
+  const disks = (x, y) => `[[disks]]\nradius = 0.5\nmass = 1\npositions = [[${x}, ${y}]]\nvelocities = [[1, 0]]\n`;
+  const scene = (boundary, effects) =>
+    `box = { x = [0, 10], y = [0, 10], boundary = "${boundary}" }\ncollision = { rule = "specular" }\nrun = { time = 100 }\n${disks(2, 5)}${disks(8, 5)}${effects}`;
+  const sliders = () => ask('[...document.querySelectorAll("#liveSettings [data-setting]")].map((one) => one.dataset.setting)');
+  const has = async (what, yes, no) => {
+    const found = await sliders();
+    check(`${what} has the settings of its effects`, yes.every((name) => found.includes(name)) && !no.some((name) => found.includes(name)), found);
+    const stuck = await stuckSliders();
+    check(`${what}: every slider moves something`, stuck.length === 0, stuck);
+    await clear();
+  };
+  const slide = async (name, value) => {
+    await ask(`(() => { const input = document.querySelector('[data-setting="${name}"]'); input.value = ${value}; input.dispatchEvent(new Event("input")); })()`);
+    await ask("carom.stateHash()");
+  };
+  await ask(`carom.load(${JSON.stringify(scene("periodic", `
+    [brownian]\ntemperature = 1\nrate = 2\n[non_additivity]\ndelta = -0.1
+    [stepped_potential]\nsteps = [{ width = 1.2, energy = 0.5 }, { width = 1.5, energy = -0.5 }]`))})`);
+  await has("a liquid", ["brownianT", "brownianRate", "nonAdditivity", "step0", "step1"], ["step2", "thermostat", "vibration", "amplitude", "topSlides"]);
+  await slide("step1", -1);
+  check("the other step stays", JSON.stringify(await ask("carom.run.description.steps.map((step) => step.energy)")) === "[0.5,-1]", await ask("carom.run.description.steps"));
+  await ask(`carom.load(${JSON.stringify(scene("walls", `
+    [walls]\nleft = { vibration = 1 }\ntop = { temperature = 2, tangential_velocity = 1 }
+    bottom = { vibration = { form = "sawtooth", amplitude = 0.5, frequency = 2 }, restitution = 0.9 }`))})`);
+  await has("a box", ["vibration", "amplitude", "frequency", "topSlides"], ["bottomSlides", "wallsT", "brownianT", "step0", "nonAdditivity"]);
+  await slide("amplitude", 0.25);
+  await slide("topSlides", -2);
+  const [left, , bottom, top] = await ask("carom.run.description.walls");
+  check("a slider changes what it names alone", bottom.amplitude === 0.25 && bottom.frequency === 2 && bottom.restitution === 0.9 && top.slides === -2 && top.temperature === 2 && left.vibration === 1, [left, bottom, top]);
 });
 
 await test("bits", async () => {
