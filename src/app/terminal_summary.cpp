@@ -57,14 +57,18 @@ std::string what_was_observed(const RunReport& report) {
     }
     table.add({measured.name, words});
   }
-  std::string text =
-      "Observables: the first number of each with its standard error, in scene units (summary.json has all)\n" + table.text();
-  if (const std::vector<std::string> drifting = drifting_numbers(report.observables); !drifting.empty())
-    text += fmt::format(
-        "\nThe first and the second half of the run differ by more than chance, so it was not in equilibrium: {}.\n"
-        "Let it equilibrate for longer, run.equilibrate, or take the numbers as those of a change.\n",
-        fmt::join(drifting, ", "));
-  return text + "\n";
+  return "Observables: the first number of each with its standard error, in scene units (summary.json has all)\n" + table.text() +
+         "\n";
+}
+
+std::string what_drifts(const RunReport& report) {
+  std::vector<std::string> drifting = drifting_numbers(report.observables);
+  if (!report.Z_note.empty()) drifting.insert(drifting.begin(), "Z");
+  if (drifting.empty()) return {};
+  return fmt::format(
+      "The first and the second half of the run differ by more than chance, so it was not in equilibrium: {}.\n"
+      "Let it equilibrate for longer, run.equilibrate, or take the numbers as those of a change.\n\n",
+      fmt::join(drifting, ", "));
 }
 
 std::string how_far_to_trust(const RunReport& report, const Scene& scene) {
@@ -132,8 +136,8 @@ std::string what_to_try_next(const RunReport& report, const Scene& scene, const 
 }  // namespace
 
 std::string terminal_summary(const RunReport& report, const Scene& scene, const Results& results) {
-  return heading(report, scene) + lines_of(report, scene) + what_was_observed(report) + how_far_to_trust(report, scene) +
-         where_the_files_are(results) + what_to_try_next(report, scene, results);
+  return heading(report, scene) + lines_of(report, scene) + what_was_observed(report) + what_drifts(report) +
+         how_far_to_trust(report, scene) + where_the_files_are(results) + what_to_try_next(report, scene, results);
 }
 
 std::string describe(const Scene& scene) {

@@ -103,6 +103,7 @@ std::string summary_json(const RunReport& report, const Provenance& provenance) 
   json["temperature"] = {{"mean", number(report.temperature_mean)}};
   json["pressure"] = {{"Z", number(report.Z)}, {"Z_error", number(report.Z_error)}, {"reduced", number(report.reduced_pressure)}};
   if (report.Z_error && !report.note_on_errors.empty()) json["pressure"]["note"] = report.note_on_errors;
+  if (!report.Z_note.empty()) json["pressure"]["Z_note"] = report.Z_note;
   json["overlap"] = {{"max_relative", number(report.max_relative_overlap)}, {"checked", report.overlap_checked}};
   if (report.overlap_at_start) json["overlap"]["start"] = number(*report.overlap_at_start);
   json["stopped"] = to_string(report.stopped);

@@ -171,6 +171,7 @@ RunReport run_report_of(const Json& json) {
   report.Z_error = number_in(pressure.at("Z_error"));
   report.reduced_pressure = number_in(pressure.at("reduced"));
   report.note_on_errors = pressure.value("note", "");
+  report.Z_note = pressure.value("Z_note", "");
   const Json& overlap = json.at("overlap");
   report.max_relative_overlap = finite_in(overlap.at("max_relative"));
   report.overlap_checked = overlap.at("checked").get<std::uint64_t>();

@@ -132,17 +132,12 @@ std::optional<Halves> Blocking::halves(std::span<const Level> levels, std::span<
   }
   const std::optional<Estimate> before = estimate(first, power, known), after = estimate(rest, power, known);
   if (!before || !after || !after->error || !after->statistical_inefficiency) return {};
-  const double independent =
-      std::min(static_cast<double>(after->blocks), static_cast<double>(rest[0].blocks) / *after->statistical_inefficiency);
+  // A few heavy samples among light ones scatter less than they should: one of a single event not at all.
+  const double samples = static_cast<double>(rest[0].blocks), mean_weight = rest[0].mean_w;
+  const double heavy = samples / (1.0 + rest[0].ww / (samples * mean_weight * mean_weight));
+  const double independent = std::min({static_cast<double>(after->blocks), samples / *after->statistical_inefficiency, heavy});
   if (independent < least_for_halves) return {};
-  Halves found{.share = count(first) / count(levels), .first = before->mean, .rest = after->mean};
-  found.error = *after->error / std::sqrt(found.share);
-  // Sums of squares that are differences have no more digits than this; nor have quantities that are conserved.
-  if (!(found.error > 1e-12 * std::max(std::abs(found.first), std::abs(found.rest)))) return {};
-  const boost::math::students_t_distribution<double> student(independent - 1.0);
-  const double t = std::abs(found.first - found.rest) / found.error;
-  found.probability = 2.0 * boost::math::cdf(boost::math::complement(student, t));
-  return found;
+  return compared_halves(count(first) / count(levels), before->mean, after->mean, *after->error, independent);
 }
 
 void Blocking::fill(Scalar& scalar, double step, double factor, double offset, int power) const {
@@ -150,12 +145,7 @@ void Blocking::fill(Scalar& scalar, double step, double factor, double offset, i
   if (!found) return;
   scalar.value = offset + factor * found->mean;
   if (found->error) scalar.error = std::abs(factor) * *found->error;
-  scalar.halves = halves(power);
-  if (scalar.halves) {
-    scalar.halves->first = offset + factor * scalar.halves->first;
-    scalar.halves->rest = offset + factor * scalar.halves->rest;
-    scalar.halves->error *= std::abs(factor);
-  }
+  scalar.halves = in_proportion(halves(power), factor, offset);
   if (found->statistical_inefficiency) scalar.integrated_correlation_time = 0.5 * step * *found->statistical_inefficiency;
   // A conserved quantity scatters by rounding alone, which need not look like noise.
   const bool conserved = found->error && *found->error <= 1e-13 * std::abs(found->mean);
@@ -163,17 +153,40 @@ void Blocking::fill(Scalar& scalar, double step, double factor, double offset, i
     scalar.note = "the run is too short for its correlations: the error is a lower bound";
 }
 
+std::optional<Halves> compared_halves(double share, double first, double rest, double error_of_rest, double blocks) {
+  Halves found{.share = share, .first = first, .rest = rest, .error = error_of_rest / std::sqrt(share)};
+  // Sums of squares that are differences have no more digits than this; nor have quantities that are conserved.
+  const double t = std::abs(first - rest) / found.error;
+  if (!std::isfinite(t) || !(found.error > 1e-12 * std::max(std::abs(first), std::abs(rest)))) return {};
+  const boost::math::students_t_distribution<double> student(blocks - 1.0);
+  found.probability = 2.0 * boost::math::cdf(boost::math::complement(student, t));
+  return found;
+}
+
+std::size_t first_of_long_blocks(std::size_t blocks) {
+  if (blocks < static_cast<std::size_t>(least_samples)) return 0;
+  return blocks - 2 * static_cast<std::size_t>(std::lround(0.32 * static_cast<double>(blocks)));
+}
+
+std::optional<Halves> in_proportion(std::optional<Halves> halves, double factor, double offset) {
+  if (!halves) return {};
+  halves->first = offset + factor * halves->first;
+  halves->rest = offset + factor * halves->rest;
+  halves->error *= std::abs(factor);
+  return halves;
+}
+
+std::optional<Halves> if_known(const std::optional<Halves>& halves, double most_error) {
+  return halves && halves->error * std::sqrt(halves->share) <= most_error * std::abs(halves->rest) ? halves : std::nullopt;
+}
+
 void ColumnComparison::add(const std::optional<Halves>& halves, double factor, double offset) {
   const std::size_t row = row_++;
-  constexpr double least_known = 0.05;
-  if (!halves || !(halves->error * std::sqrt(halves->share) <= least_known * std::abs(halves->rest))) return;
+  if (!if_known(halves, most_error_)) return;
   ++most_.compared;
   if (most_.compared > 1 && !(halves->probability < most_.halves.probability)) return;
   row_of_most_ = row;
-  most_.halves = *halves;
-  most_.halves.first = offset + factor * halves->first;
-  most_.halves.rest = offset + factor * halves->rest;
-  most_.halves.error *= std::abs(factor);
+  most_.halves = *in_proportion(halves, factor, offset);
 }
 
 void ColumnComparison::put(Table& table, const std::string& column) const {

@@ -15,16 +15,37 @@ namespace carom {
 /// The entry of a table for an unknown number.
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// Compares the halves of the rows of a column. A row takes part where its mean over the rest is known to 5 % or better: where
-/// fewer events were counted, Student's t makes chance look rarer than it is.
+/// The relative error up to which a number that counts rare events, or is a mean of squares, can be compared with itself: with
+/// fewer of them Student's t makes chance look rarer than it is. The mean of n squares of Gaussian numbers has the relative error
+/// sqrt(2 / n) and the skewness sqrt(8 / n), which is then at most 0.1.
+inline constexpr double most_error_of_halves = 0.05;
+
+/// Compares the mean over a share of the run, the first, with that over the rest. The standard error of the latter came from so
+/// many independent blocks. Returns nothing where a number is unknown, or there is no scatter but rounding.
+[[nodiscard]] std::optional<Halves> compared_halves(double share, double first, double rest, double error_of_rest, double blocks);
+
+/// Returns how many of a few long blocks are the first part of a run, a third or more; the rest is an even number of them.
+/// Returns 0 for fewer than 16, which are too few. The error of the rest is the larger one of those by blocks and by pairs of
+/// them, and the number of blocks that of the pairs: correlations may then reach from one block into the next.
+[[nodiscard]] std::size_t first_of_long_blocks(std::size_t blocks);
+
+/// Returns the halves of offset + factor x from those of x.
+[[nodiscard]] std::optional<Halves> in_proportion(std::optional<Halves> halves, double factor, double offset = 0.0);
+
+/// Returns the halves where the rest is known to this relative error or better, else nothing.
+[[nodiscard]] std::optional<Halves> if_known(const std::optional<Halves>& halves, double most_error = most_error_of_halves);
+
+/// Compares the halves of the rows of a column. A row takes part where the rest knows it to `most_error` or better.
 class ColumnComparison {
  public:
+  explicit ColumnComparison(double most_error = most_error_of_halves) : most_error_(most_error) {}
   /// Takes the next row, whose numbers in the table are offset + factor times those of `halves`.
   void add(const std::optional<Halves>& halves, double factor = 1.0, double offset = 0.0);
   /// Adds what was found to a table whose first column is there.
   void put(Table& table, const std::string& column) const;
 
  private:
+  double most_error_;
   std::size_t row_ = 0, row_of_most_ = 0;
   ColumnHalves most_;
 };

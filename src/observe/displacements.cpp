@@ -15,6 +15,10 @@ namespace carom {
 
 namespace {
 
+/// The relative error up to which 1 + alpha_2 can be compared with itself. Of n Gaussian displacements it is 1 / sqrt(n), and the
+/// skewness that of the mean of x^2 / 2 - 2 x, x = r^2 / <r^2>: 10 / sqrt(n), 0.1 as that of squares at most_error_of_halves.
+constexpr double most_error_of_fourth = 0.01;
+
 class NonGaussian final : public SavedObservable<NonGaussian> {
  public:
   NonGaussian(const ObservableRequest& request, const ObservedRun& run)
@@ -39,8 +43,8 @@ class NonGaussian final : public SavedObservable<NonGaussian> {
     for (std::size_t s = 0; s < run_.species_count(); ++s) {
       if (fourth_[s].size() < 2) continue;
       if (table.columns.empty()) table.columns.push_back(lag_column(1, fourth_[s].size(), step_));
-      LaggedColumn alpha("alpha_2" + run_.suffix(s), "");
-      for (std::size_t row = 1; row < fourth_[s].size(); ++row) alpha.add(fourth_[s].estimate(row, 2), 0.5, -1.0);
+      LaggedColumn alpha("alpha_2" + run_.suffix(s), "", most_error_of_fourth);
+      for (std::size_t row = 1; row < fourth_[s].size(); ++row) alpha.add(fourth_[s], row, 2, 0.5, -1.0);
       alpha.put(table);
     }
     put_table(found, std::move(table));

@@ -9,9 +9,10 @@ namespace carom {
 
 namespace {
 
-/// The probability that a run in equilibrium has a remark on any of its numbers. Where tables are compared too, half of it is for
-/// them: their many rows then do not raise the threshold of the other numbers by more than that.
-constexpr double false_alarms = 0.01;
+/// The probability that a run in equilibrium has a remark on the Z of its summary, and that it has one on any number of its
+/// observables: together 0.01. Where tables are compared too, half of the latter is for them: their many rows then do not raise
+/// the threshold of the other numbers by more than that.
+constexpr double false_alarms_of_Z = 0.001, false_alarms = 0.009;
 
 std::string words_of(const Halves& halves, bool is_steady_expected) {
   return fmt::format("{}: {:.5g} in the first {:.0f} % of the samples and {:.5g} in the rest, {:.1f} standard errors apart",
@@ -60,6 +61,10 @@ void note_drifts(std::vector<Measurement>& measured, const Effects& effects) {
       put_before(one.note, fmt::format("{} ({} at {} = {:.5g})", words_of(most.column->halves, is_steady_expected),
                                        most.column->column, most.table->columns.front().name, most.column->at));
   }
+}
+
+std::string note_on_drift_of_Z(const std::optional<Halves>& halves) {
+  return halves && halves->probability < false_alarms_of_Z ? words_of(*halves, true) : std::string();
 }
 
 std::vector<std::string> drifting_numbers(const std::vector<Measurement>& measured) {

@@ -83,6 +83,9 @@ constexpr std::array<FieldName, 11> field_names = {{{"density", "1 / area"},
                                                     {"heat_flux_y", "energy / (length time)"},
                                                     {"energy_lost", "energy / (area time)"}}};
 using FieldValues = std::array<double, field_names.size()>;
+struct FieldEstimates {
+  FieldValues mean, variance;
+};
 
 /// Returns the fields in a cell from the sums of so many steps. Without disks there is a density alone, without area nothing.
 FieldValues fields_of(const CellSums& sums, double steps, double step, double area) {
@@ -307,7 +310,7 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
     return places;
   }
 
-  /// Returns the fields averaged over all whole stretches, with errors by the jackknife over these.
+  /// Returns the fields averaged over all whole stretches, with errors by the jackknife over these, and halves compared.
   [[nodiscard]] Table averages() const {
     Table table{.name = "fields"};
     for (Column& column : middles()) table.columns.push_back(std::move(column));
@@ -317,25 +320,46 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
       table.columns.push_back({field.name, field.unit, {}});
       table.columns.push_back({std::string(field.name) + "_error", field.unit, {}});
     }
-    const auto count = static_cast<double>(stretches_.size()), steps = static_cast<double>(steps_of_stretch_);
+    const std::size_t count = stretches_.size(), begin = first_of_long_blocks(count);
+    const double share = static_cast<double>(begin) / static_cast<double>(count);
+    std::array<ColumnComparison, field_names.size()> comparisons;
     for (std::size_t c = 0; c < coming_.size(); ++c) {
-      CellSums all;
-      for (const std::vector<CellSums>& stretch : stretches_) all += stretch[c];
-      const FieldValues mean = fields_of(all, count * steps, step_, areas_[c]);
-      FieldValues squares{};
-      for (const std::vector<CellSums>& stretch : stretches_) {
-        CellSums others = all;
-        others -= stretch[c];
-        const FieldValues without = fields_of(others, (count - 1.0) * steps, step_, areas_[c]);
-        for (std::size_t f = 0; f < mean.size(); ++f) squares[f] += (without[f] - mean[f]) * (without[f] - mean[f]);
+      const FieldEstimates all = estimates(c, 0, count, 1);
+      for (std::size_t f = 0; f < field_names.size(); ++f) {
+        table.columns[first + 2 * f].values.push_back(all.mean[f]);
+        table.columns[first + 2 * f + 1].values.push_back(count < least_for_errors ? unknown : std::sqrt(all.variance[f]));
       }
-      for (std::size_t f = 0; f < mean.size(); ++f) {
-        table.columns[first + 2 * f].values.push_back(mean[f]);
-        table.columns[first + 2 * f + 1].values.push_back(
-            stretches_.size() < least_for_errors ? unknown : std::sqrt((count - 1.0) / count * squares[f]));
-      }
+      if (begin == 0) continue;
+      const FieldEstimates before = estimates(c, 0, begin, 1), rest = estimates(c, begin, count, 1),
+                           pairs = estimates(c, begin, count, 2);
+      for (std::size_t f = 0; f < field_names.size(); ++f)
+        comparisons[f].add(compared_halves(share, before.mean[f], rest.mean[f],
+                                           std::sqrt(std::max(rest.variance[f], pairs.variance[f])),
+                                           0.5 * static_cast<double>(count - begin)));
     }
+    for (std::size_t f = 0; f < field_names.size(); ++f) comparisons[f].put(table, field_names[f].name);
     return table;
+  }
+
+  /// Returns the fields in a cell over the stretches from `begin` to before `end`, with variances by the jackknife over `length`
+  /// of them together.
+  [[nodiscard]] FieldEstimates estimates(std::size_t c, std::size_t begin, std::size_t end, std::size_t length) const {
+    const auto steps_of = [&](std::size_t stretches) {
+      return static_cast<double>(stretches) * static_cast<double>(steps_of_stretch_);
+    };
+    CellSums all;
+    for (std::size_t s = begin; s < end; ++s) all += stretches_[s][c];
+    FieldEstimates found{.mean = fields_of(all, steps_of(end - begin), step_, areas_[c]), .variance = {}};
+    for (std::size_t s = begin; s < end; s += length) {
+      CellSums others = all;
+      for (std::size_t k = 0; k < length; ++k) others -= stretches_[s + k][c];
+      const FieldValues without = fields_of(others, steps_of(end - begin - length), step_, areas_[c]);
+      for (std::size_t f = 0; f < without.size(); ++f)
+        found.variance[f] += (without[f] - found.mean[f]) * (without[f] - found.mean[f]);
+    }
+    const double count = static_cast<double>((end - begin) / length);
+    for (double& one : found.variance) one *= (count - 1.0) / count;
+    return found;
   }
 
   /// Returns the fields of each stretch, with the middle of its time.

@@ -108,6 +108,9 @@ class IntermediateScattering final : public SavedObservable<IntermediateScatteri
       const double time = step_ * std::exp(from + (level - before->mean) / slope);
       found.value = time;
       if (before->error && here->error) found.error = time * std::max(*before->error, *here->error) / std::abs(slope);
+      const bool is_nearer_to_this = level - here->mean < before->mean - level;
+      const double at_row = is_nearer_to_this ? here->mean : before->mean, per_fall = -time / slope;
+      found.halves = in_proportion(self_[s].halves(is_nearer_to_this ? row : row - 1), per_fall, time - per_fall * at_row);
       return found;
     }
     found.note = "F_self does not fall to 1/e between one step and the longest lag";

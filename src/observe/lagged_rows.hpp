@@ -38,17 +38,18 @@ class LaggedRows {
 /// A column and that of its errors.
 struct LaggedColumn {
   Column values, errors;
-  ColumnComparison comparison = {};
+  ColumnComparison comparison;
 
-  LaggedColumn(const std::string& name, const std::string& unit) : values{name, unit, {}}, errors{name + "_error", unit, {}} {}
+  LaggedColumn(const std::string& name, const std::string& unit, double most_error = most_error_of_halves)
+      : values{name, unit, {}}, errors{name + "_error", unit, {}}, comparison(most_error) {}
   void add(const std::optional<Blocking::Estimate>& found, double factor = 1.0, double offset = 0.0) {
     values.values.push_back(found ? offset + factor * found->mean : unknown);
     errors.values.push_back(found && found->error ? factor * *found->error : unknown);
   }
   /// Adds a row of a table, and compares its halves.
-  void add(const LaggedRows& rows, std::size_t row) {
-    add(rows.estimate(row));
-    comparison.add(rows.halves(row));
+  void add(const LaggedRows& rows, std::size_t row, int power = 1, double factor = 1.0, double offset = 0.0) {
+    add(rows.estimate(row, power), factor, offset);
+    comparison.add(rows.halves(row, power), factor, offset);
   }
   void put(Table& table) {
     comparison.put(table, values.name);

@@ -186,17 +186,24 @@ std::vector<MultipleTau::Row> MultipleTau::rows() {
     for (std::size_t k = first; k < lags_ && means[k]; ++k) {
       if (kind_ == Pairs::squared_differences) {
         const std::vector<double> known = correlation_of_row(level.pairs, means, k);
-        rows.push_back(
-            {width * static_cast<double>(k), width, *level.pairs.estimate(k, known), level.pairs.halves(k, known), std::nullopt});
+        rows.push_back({.lag = width * static_cast<double>(k),
+                        .width = width,
+                        .pairs = *level.pairs.estimate(k, known),
+                        .halves = level.pairs.halves(k, known)});
         continue;
       }
       std::vector<double> weights(k + 1);
       weights[k] = 1.0;
       const std::vector<double> known = correlation_of_products(weights, of_x);
-      Row row{width * static_cast<double>(k), width, *level.pairs.estimate(k, known), level.pairs.halves(k, known), std::nullopt};
+      Row row{.lag = width * static_cast<double>(k),
+              .width = width,
+              .pairs = *level.pairs.estimate(k, known),
+              .halves = level.pairs.halves(k, known)};
       weights.assign(k + 1, 1.0);
       weights[0] = 0.5;
-      row.integral = level.integrals.estimate(k, correlation_of_products(weights, of_x));
+      const std::vector<double> known_of_sums = correlation_of_products(weights, of_x);
+      row.integral = level.integrals.estimate(k, known_of_sums);
+      row.integral_halves = in_proportion(level.integrals.halves(k, known_of_sums), width);
       row.integral->mean *= width;
       if (row.integral->error) *row.integral->error *= width;
       rows.push_back(row);

@@ -38,9 +38,10 @@ class MultipleTau {
     double lag = 0.0;    ///< the lag, in steps
     double width = 1.0;  ///< length of a value of this level, in steps
     Blocking::Estimate pairs;
-    std::optional<Halves> halves;  ///< of `pairs`
+    std::optional<Halves> halves = {};  ///< of `pairs`
     /// Products only: the integral from 0 to lag + width / 2, per step.
-    std::optional<Blocking::Estimate> integral;
+    std::optional<Blocking::Estimate> integral = {};
+    std::optional<Halves> integral_halves = {};
   };
   /// Returns the rows in order of the lag, as far as there are pairs. Squared differences begin with lag 1.
   [[nodiscard]] std::vector<Row> rows();

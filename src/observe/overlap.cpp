@@ -49,6 +49,7 @@ class Overlap final : public SavedObservable<Overlap> {
         const double scale = q ? count * q->mean * q->mean : 0.0;
         overlap.add(overlap_[s], row);
         chi.add(ratio, scale, -scale);
+        chi.comparison.add(in_proportion(squares_[s].halves(row, 2), 1.0, -1.0), scale);
       }
       overlap.put(table);
       chi.put(table);

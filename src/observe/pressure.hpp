@@ -1,6 +1,8 @@
 #pragma once
 // Pressure from momentum transfer: the virial that collisions hand over per unit of time, with its standard error.
 
+#include <carom/observe.hpp>
+
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -20,6 +22,10 @@ class BlockedRate {
   /// Standard error of rate(); empty with fewer than 8 blocks, where it would be a guess.
   [[nodiscard]] std::optional<double> standard_error() const;
 
+  /// Compares the rate of the first part of the blocks with that of the rest; nothing where they are few, or their rate is not
+  /// known well.
+  [[nodiscard]] std::optional<Halves> halves() const;
+
   template <class Archive>
   void serialize(Archive& archive) {
     archive(blocks_, joined_, pending_, time_, total_);
@@ -29,7 +35,15 @@ class BlockedRate {
   struct Block {
     double duration;
     double increase;
+    Block& operator+=(const Block& other) {
+      duration += other.duration, increase += other.increase;
+      return *this;
+    }
   };
+  /// Returns the standard error of the increase over the blocks from `begin` on, by `length` of them together. `all` is their
+  /// sum.
+  [[nodiscard]] double error_of_increase(std::size_t begin, std::size_t length, const Block& all) const;
+
   std::vector<Block> blocks_;
   std::size_t joined_ = 1;   ///< points that make one block
   std::size_t pending_ = 0;  ///< points in the last block

@@ -1,5 +1,7 @@
 #include "observe/run_measurements.hpp"
 
+#include "observe/blocking.hpp"
+#include "observe/drift.hpp"
 #include "observe/effects_report.hpp"
 #include "observe/energy.hpp"
 #include "observe/equilibrium.hpp"
@@ -9,6 +11,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <string_view>
 
 namespace carom {
 
@@ -82,10 +85,13 @@ void RunMeasurements::measure_Z(const RunResult& result, double temperature) {
   if (result.measured && report_.totals.pair > 0 && series.rate() && temperature > 0.0) {
     const double disks = static_cast<double>(report_.disks);
     report_.Z = fluctuates ? 1.0 + *series.rate() : compressibility(*series.rate(), disks, temperature);
+    const double per_rate = fluctuates ? 1.0 : 1.0 / (2.0 * disks * temperature);
     if (const std::optional<double> error = series.standard_error())
       report_.Z_error = fluctuates ? *error : *error / (2.0 * disks * temperature);
-    if (report_.note_on_errors.empty())
-      report_.note_on_errors = why_error_of_Z_is_off(simulation_.scene(), 2.0 * static_cast<double>(report_.totals.pair) / disks);
+    const std::string_view is_off =
+        why_error_of_Z_is_off(simulation_.scene(), 2.0 * static_cast<double>(report_.totals.pair) / disks);
+    if (report_.note_on_errors.empty()) report_.note_on_errors = is_off;
+    if (is_off.empty()) report_.Z_note = note_on_drift_of_Z(in_proportion(series.halves(), per_rate, 1.0));
     report_.reduced_pressure = 4.0 * report_.packing_fraction / std::numbers::pi * *report_.Z;
   }
 }

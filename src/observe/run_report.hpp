@@ -54,6 +54,7 @@ struct RunReport {
 
   std::optional<double> Z;                 ///< compressibility factor from momentum transfer; empty where it has no meaning
   std::optional<double> Z_error;           ///< standard error over blocks; empty with fewer than 8 blocks
+  std::string Z_note;                      ///< remark that Z was not yet that of equilibrium; empty where it may have been
   std::optional<double> reduced_pressure;  ///< beta P <sigma^2> = (4 eta / pi) Z; empty where Z is
 
   double max_relative_overlap = 0.0;       ///< largest (sigma_ij - |r_ij|) / sigma_ij over all checked states, >= 0

@@ -94,6 +94,7 @@ Scalar coefficient(std::string name, const std::string& unit, double step, doubl
   const double lag = row->integral ? row->lag + 0.5 * row->width : row->lag;
   scalar.value = factor * found.mean;
   scalar.error = factor * *found.error;
+  scalar.halves = in_proportion(if_known(row->integral ? row->integral_halves : row->halves), factor);
   if (found.statistical_inefficiency)
     scalar.integrated_correlation_time = 0.5 * step * row->width * *found.statistical_inefficiency;
   scalar.note = at_lag(step * lag);
@@ -168,7 +169,7 @@ Measurement Transport::finish(double time, const Totals&) {
   Column lags{"lag", "time", {}}, flux{"correlation", unit_of_flux, {}}, flux_error{"correlation_error", unit_of_flux, {}};
   Column until{"integral_to", "time", {}}, integral{"green_kubo", unit, {}}, integral_error{"green_kubo_error", unit, {}};
   Column helfand{"einstein_helfand", unit, {}}, helfand_error{"einstein_helfand_error", unit, {}};
-  ColumnComparison of_flux, of_helfand;
+  ColumnComparison of_flux, of_integral, of_helfand;
   for (const MultipleTau::Row& row : correlations) {
     lags.values.push_back(step * row.lag);
     flux.values.push_back(row.pairs.mean);
@@ -176,6 +177,7 @@ Measurement Transport::finish(double time, const Totals&) {
     of_flux.add(row.halves);
     until.values.push_back(step * (row.lag + 0.5 * row.width));
     integral.values.push_back(factor * step * row.integral->mean);
+    of_integral.add(row.integral_halves, factor * step);
     integral_error.values.push_back(row.integral->error ? factor * step * *row.integral->error : unknown);
     const auto same =
         std::find_if(moments.begin(), moments.end(), [&](const MultipleTau::Row& other) { return other.lag == row.lag; });
@@ -187,6 +189,7 @@ Measurement Transport::finish(double time, const Totals&) {
   }
   table.columns = {lags, flux, flux_error, until, integral, integral_error, helfand, helfand_error};
   of_flux.put(table, flux.name);
+  of_integral.put(table, integral.name);
   of_helfand.put(table, helfand.name);
   found.tables.push_back(std::move(table));
   return found;

@@ -105,7 +105,7 @@ class VelocityAutocorrelation final : public SavedObservable<VelocityAutocorrela
         errors{"correlation" + suffix + "_error", "length^2 / time^2", {}};
     Column diffusion{"diffusion" + suffix, "length^2 / time", {}},
         its_errors{"diffusion" + suffix + "_error", "length^2 / time", {}};
-    ColumnComparison comparison;
+    ColumnComparison comparison, of_diffusion;
     for (std::size_t r = 0; r < means.size(); ++r) {
       const bool instant = means[r].width == 1.0 && r < instants.size();
       const MultipleTau::Row& row = instant ? instants[r] : means[r];
@@ -116,11 +116,13 @@ class VelocityAutocorrelation final : public SavedObservable<VelocityAutocorrela
       errors.values.push_back(row.pairs.error ? 2.0 * *row.pairs.error : unknown);
       until.values.push_back(step_ * (means[r].lag + 0.5 * means[r].width));
       diffusion.values.push_back(step_ * means[r].integral->mean);
+      of_diffusion.add(means[r].integral_halves, step_);
       its_errors.values.push_back(means[r].integral->error ? step_ * *means[r].integral->error : unknown);
     }
     if (means.empty()) return;
     if (table.columns.empty()) table.columns = {lag, window, until};
     comparison.put(table, values.name);
+    of_diffusion.put(table, diffusion.name);
     for (Column* column : {&values, &errors, &diffusion, &its_errors}) table.columns.push_back(std::move(*column));
   }
 

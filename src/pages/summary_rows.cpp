@@ -256,7 +256,9 @@ SummaryRows rows_of_results(const RunReport& report, const Scene* scene) {
   if (!report.Z) rows.push_back({"Z = PA/(NkT)", "none", why_there_is_no_Z(report, scene)});
   if (report.Z)
     rows.push_back({"Z = PA/(NkT)", report.Z_error ? with_error(*report.Z, *report.Z_error) : fmt::format("{:.5g}", *report.Z),
-                    report.Z_error ? "from momentum transfer" : "the run is too short for an error"});
+                    !report.Z_note.empty() ? report.Z_note
+                    : report.Z_error       ? "from momentum transfer"
+                                           : "the run is too short for an error"});
   if (report.reduced_pressure) {
     const double reduced = *report.reduced_pressure;  // proportional to Z, and so is its error
     rows.push_back({"P sigma^2/kT", report.Z_error && *report.Z != 0.0

@@ -108,6 +108,13 @@ TEST_F(TerminalSummary, PressureHasTheErrorOfZInProportion) {
   EXPECT_THAT(text(), ContainsRegex("P sigma\\^2/kT +1\n"));
 }
 
+TEST_F(TerminalSummary, SaysWhereZWasNotYetThatOfEquilibrium) {
+  EXPECT_THAT(text(), Not(HasSubstr("not in equilibrium")));
+  report_.Z_note = "not yet at equilibrium: 3 and 2";
+  EXPECT_THAT(text(), AllOf(ContainsRegex("Z = PA/\\(NkT\\) .* not yet at equilibrium: 3 and 2\n"),
+                            HasSubstr("so it was not in equilibrium: Z.\n")));
+}
+
 TEST_F(TerminalSummary, WhatToTryNextIsWhatWorks) {
   const auto next = [&] {
     const std::string all = cli::terminal_summary(report_, scene_, {"out", {"out/trajectory.h5md"}, "carom"});

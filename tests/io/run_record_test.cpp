@@ -51,6 +51,8 @@ TEST(RunReportOf, IsTheInverseOfTheSummary) {
   report.time_step = 0.25;
   report.stiffness = 5000.0;
   report.engine_asked = "auto";
+  report.Z_note = "not yet at equilibrium";
+  EXPECT_EQ(again(json_of(report)), json_of(report));
   report.Z.reset();
   report.Z_error.reset();
   report.overlap_at_start = 0.5;

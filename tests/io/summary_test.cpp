@@ -60,6 +60,13 @@ TEST(Summary, CarriesTheNumbersOfTheReport) {
   EXPECT_EQ(json["title"], "Hand-made: größer & kleiner");
 }
 
+TEST(Summary, HasARemarkOnZWhereThereIsOne) {
+  RunReport report = hand_made_report(scene_of(2, 2));
+  EXPECT_FALSE(summary_of(report)["pressure"].contains("Z_note"));
+  report.Z_note = "not yet at equilibrium";
+  EXPECT_EQ(summary_of(report)["pressure"]["Z_note"], "not yet at equilibrium");
+}
+
 TEST(Summary, WhatHasNoMeaningOrIsNotFiniteIsNull) {
   RunReport report = hand_made_report(scene_of(2, 2));
   report.Z.reset();

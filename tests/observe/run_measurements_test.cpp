@@ -129,6 +129,26 @@ TEST(RunMeasurements, FewCollisionsGiveZWithoutAnError) {
   EXPECT_EQ(report.stopped, StopReason::collisions);
 }
 
+TEST(RunMeasurements, SaysWhereZOfTheHalvesDiffersByMoreThanChance) {
+  const auto note = [](double rate_of_first) {
+    Scene scene = gas_scene(16, 0.3, Boundary::periodic);
+    scene.run.time = 10.0;
+    Simulation simulation = make_simulation(scene);
+    RunMeasurements measurements(simulation);
+    const RunResult result = run_schedule(simulation, {});
+    Progress made_up;
+    for (int block = 1; block <= 50; ++block) {
+      made_up.time = 0.2 * block;
+      made_up.totals.virial += 0.2 * ((block <= 18 ? rate_of_first : 32.0) + (block % 2 == 0 ? 1.0 : -1.0));
+      measurements.block(made_up);
+    }
+    return measurements.report(result, 1.0).Z_note;
+  };
+  EXPECT_THAT(note(64.0), testing::StartsWith("not yet at equilibrium: 3 in the first 36 % of the samples and 2 in the rest, "))
+      << "Z is 1 + the rate over 2 N kT";
+  EXPECT_EQ(note(32.0), "");
+}
+
 TEST(RunMeasurements, BesideAHeatBathTheErrorOfZIsThatOfARatio) {
   // kT of sixteen disks in a bath fluctuates by a quarter, and the virial with it, so that the error of the virial alone is some
   // three times that of Z. What the observable tells is known to be right. Both are known to sqrt(2 / 31) = 0.25 and about as
