@@ -12,6 +12,9 @@
 // (r x J) / (m R |r|), and walls and obstacles leave them. Nearer to a wall than a radius a part of the momentum is carried from
 // the wall to centres, which is not counted here.
 //
+// Where something changes velocities between collisions, impulses are not known, and the fields are those of states alone:
+// density, velocity and temperature.
+//
 // In a circular box the grid divides the square round the circle. The area of a cell is that of its part inside the circle, which
 // is a column of the averages; a cell without any has no fields.
 //
@@ -27,9 +30,13 @@
 #include "observe/wall_reach.hpp"
 #include "scene/contact_scales.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
+#include <string>
 #include <vector>
 
 namespace carom {
@@ -71,18 +78,19 @@ struct FieldName {
   const char* name;
   const char* unit;
 };
-constexpr std::array<FieldName, 11> field_names = {{{"density", "1 / area"},
-                                                    {"velocity_x", "length / time"},
-                                                    {"velocity_y", "length / time"},
-                                                    {"temperature", "energy"},
-                                                    {"stress_xx", "energy / area"},
-                                                    {"stress_xy", "energy / area"},
-                                                    {"stress_yx", "energy / area"},
-                                                    {"stress_yy", "energy / area"},
-                                                    {"heat_flux_x", "energy / (length time)"},
-                                                    {"heat_flux_y", "energy / (length time)"},
-                                                    {"energy_lost", "energy / (area time)"}}};
-using FieldValues = std::array<double, field_names.size()>;
+constexpr std::array<FieldName, 11> all_fields = {{{"density", "1 / area"},
+                                                   {"velocity_x", "length / time"},
+                                                   {"velocity_y", "length / time"},
+                                                   {"temperature", "energy"},
+                                                   {"stress_xx", "energy / area"},
+                                                   {"stress_xy", "energy / area"},
+                                                   {"stress_yx", "energy / area"},
+                                                   {"stress_yy", "energy / area"},
+                                                   {"heat_flux_x", "energy / (length time)"},
+                                                   {"heat_flux_y", "energy / (length time)"},
+                                                   {"energy_lost", "energy / (area time)"}}};
+constexpr std::size_t states_alone = 4;  ///< the first fields, which need no collisions
+using FieldValues = std::array<double, all_fields.size()>;
 struct FieldEstimates {
   FieldValues mean, variance;
 };
@@ -114,7 +122,8 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
   Fields(const ObservableRequest& request, const ObservedRun& run)
       : SavedObservable(request, run),
         cells_(request.cells.value_or(std::array<std::int64_t, 2>{10, 10})),
-        follows_(run.collisions_known),
+        follows_(run.collisions_known && !is_driven(run.scene.effects)),
+        names_(std::span(all_fields).first(is_driven(run.scene.effects) ? states_alone : all_fields.size())),
         potential_(run.acting->potential_steps()),
         scales_(contact_scales<double>(run.scene.effects, run.disks)),
         coming_(static_cast<std::size_t>(cells_[0] * cells_[1])) {
@@ -188,9 +197,15 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
 
   [[nodiscard]] Measurement finish(double, const Totals&) override {
     Measurement found{.name = name(), .note = note_on_disks_outside(outside_, seen_)};
-    const auto remark = [&](const char* why) { found.note += (found.note.empty() ? "" : "; ") + std::string(why); };
-    if (!follows_) remark("collisions were not recorded, so stress and heat flux are those that disks carry in flight");
-    if (run_.scene.effects.collision.roughness.value_or(-1.0) != -1.0 && spins_.size() == 0)
+    const auto remark = [&](const std::string& why) { found.note += (found.note.empty() ? "" : "; ") + why; };
+    const bool is_whole = names_.size() == all_fields.size();
+    if (!is_whole)
+      remark(fmt::format(
+          "without stress and heat flux: {} changes velocities between collisions, so what these transfer is not known",
+          what_drives(run_.scene.effects)));
+    if (is_whole && !follows_)
+      remark("collisions were not recorded, so stress and heat flux are those that disks carry in flight");
+    if (is_whole && run_.scene.effects.collision.roughness.value_or(-1.0) != -1.0 && spins_.size() == 0)
       remark("spins were not recorded, so heat flux and energy lost lack their energy");
     if (stretches_.empty()) {
       found.note = "the run is too short";
@@ -316,28 +331,28 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
     for (Column& column : middles()) table.columns.push_back(std::move(column));
     if (run_.scene.box.is_circle) table.columns.push_back({"area", "area", areas_});
     const std::size_t first = table.columns.size();
-    for (const FieldName& field : field_names) {
+    for (const FieldName& field : names_) {
       table.columns.push_back({field.name, field.unit, {}});
       table.columns.push_back({std::string(field.name) + "_error", field.unit, {}});
     }
     const std::size_t count = stretches_.size(), begin = first_of_long_blocks(count);
     const double share = static_cast<double>(begin) / static_cast<double>(count);
-    std::array<ColumnComparison, field_names.size()> comparisons;
+    std::vector<ColumnComparison> comparisons(names_.size());
     for (std::size_t c = 0; c < coming_.size(); ++c) {
       const FieldEstimates all = estimates(c, 0, count, 1);
-      for (std::size_t f = 0; f < field_names.size(); ++f) {
+      for (std::size_t f = 0; f < names_.size(); ++f) {
         table.columns[first + 2 * f].values.push_back(all.mean[f]);
         table.columns[first + 2 * f + 1].values.push_back(count < least_for_errors ? unknown : std::sqrt(all.variance[f]));
       }
       if (begin == 0) continue;
       const FieldEstimates before = estimates(c, 0, begin, 1), rest = estimates(c, begin, count, 1),
                            pairs = estimates(c, begin, count, 2);
-      for (std::size_t f = 0; f < field_names.size(); ++f)
+      for (std::size_t f = 0; f < names_.size(); ++f)
         comparisons[f].add(compared_halves(share, before.mean[f], rest.mean[f],
                                            std::sqrt(std::max(rest.variance[f], pairs.variance[f])),
                                            0.5 * static_cast<double>(count - begin)));
     }
-    for (std::size_t f = 0; f < field_names.size(); ++f) comparisons[f].put(table, field_names[f].name);
+    for (std::size_t f = 0; f < names_.size(); ++f) comparisons[f].put(table, names_[f].name);
     return table;
   }
 
@@ -368,20 +383,21 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
     table.columns.push_back({"time", "time", {}});
     const std::array<Column, 2> places = middles();
     for (const Column& column : places) table.columns.push_back({column.name, column.unit, {}});
-    for (const FieldName& field : field_names) table.columns.push_back({field.name, field.unit, {}});
+    for (const FieldName& field : names_) table.columns.push_back({field.name, field.unit, {}});
     const auto steps = static_cast<double>(steps_of_stretch_);
     for (std::size_t s = 0; s < stretches_.size(); ++s)
       for (std::size_t c = 0; c < coming_.size(); ++c) {
         table.columns[0].values.push_back((static_cast<double>(s) + 0.5) * steps * step_);
         for (std::size_t axis = 0; axis < 2; ++axis) table.columns[1 + axis].values.push_back(places[axis].values[c]);
         const FieldValues values = fields_of(stretches_[s][c], steps, step_, areas_[c]);
-        for (std::size_t f = 0; f < values.size(); ++f) table.columns[3 + f].values.push_back(values[f]);
+        for (std::size_t f = 0; f < names_.size(); ++f) table.columns[3 + f].values.push_back(values[f]);
       }
     return table;
   }
 
   std::array<std::int64_t, 2> cells_;
   bool follows_;
+  std::span<const FieldName> names_;
   std::vector<PotentialStep> potential_;  ///< of pairs; empty without one
   ContactScales<double> scales_;
   Eigen::Vector2d lower_, upper_, width_;         ///< of the grid, and of a cell

@@ -100,13 +100,15 @@ std::optional<std::string> field_maps(const Table& fields) {
   };
   const Values *density = values("density"), *u = values("velocity_x"), *v = values("velocity_y"), *kT = values("temperature");
   const Values *qx = values("heat_flux_x"), *qy = values("heat_flux_y"), *xx = values("stress_xx"), *yy = values("stress_yy");
-  for (const Values* one : {density, u, v, kT, qx, qy, xx, yy})
+  for (const Values* one : {density, u, v, kT})
     if (one == nullptr) return {};
   Values pressure;
-  for (std::size_t c = 0; c < xx->size(); ++c) pressure.push_back(0.5 * ((*xx)[c] + (*yy)[c]));
+  for (std::size_t c = 0; xx != nullptr && yy != nullptr && c < xx->size(); ++c) pressure.push_back(0.5 * ((*xx)[c] + (*yy)[c]));
   std::string stops;
   for (int k = 0; k <= 8; ++k) stops += (k == 0 ? "" : ",") + hex(scale_colour(k / 8.0));
   const auto unit = [&](std::string_view name) { return find_column(fields, name)->unit; };
+  const std::string map_of_pressure =
+      pressure.empty() ? std::string() : map_of(*cells, "Pressure", unit("stress_xx"), pressure, nullptr, nullptr, "");
   return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Maps of the fields</title><style>\n"
          ":root{color-scheme:light dark}body{margin:0;padding:1rem;font:1rem/1.4 "
          "system-ui,sans-serif;background:#fff;color:#1b2330;display:grid;"
@@ -115,8 +117,7 @@ std::optional<std::string> field_maps(const Table& fields) {
          ".scale{display:inline-block;width:5em;height:.7em;background:linear-gradient(to right," +
          stops + ")}@media(prefers-color-scheme:dark){body{background:#12161c;color:#e6eaf0}}\n</style></head><body>\n" +
          map_of(*cells, "Density", unit("density"), *density, u, v, "flow") +
-         map_of(*cells, "Temperature", unit("temperature"), *kT, qx, qy, "heat flux") +
-         map_of(*cells, "Pressure", unit("stress_xx"), pressure, nullptr, nullptr, "") + "\n</body></html>\n";
+         map_of(*cells, "Temperature", unit("temperature"), *kT, qx, qy, "heat flux") + map_of_pressure + "\n</body></html>\n";
 }
 
 }  // namespace carom

@@ -92,7 +92,7 @@ void check_disks(const Scene& scene, const ObservableRequest& request) {
 }
 
 void check_collisions(const Scene& scene, const ObservableRequest& request) {
-  if (!one_of(request.name, {"contact_values", "free_flight", "viscosity", "heat_conductivity", "fields"})) return;
+  if (!one_of(request.name, {"contact_values", "free_flight", "viscosity", "heat_conductivity"})) return;
   for (const EffectTraits& effect : all_effects())
     if (effect.changes_velocities_in_flight && effect.acts(scene.effects))
       refuse_observable(request, fmt::format("follows disks from collision to collision, and {} changes their velocities in "

@@ -307,6 +307,45 @@ TEST(Fields, SayHowManyDisksWereBeyondAWallWhoseWayIsNotKnown) {
 }
 
 /// Heat goes from the hot wall to the cold one: as much through every line across, and as much as through the walls.
+/// Sixty disks, whose collisions cannot be followed for what `effect` does.
+Observed driven(const std::string& effect, const std::string& cells) {
+  return observe(
+      parse_scene("[box]\nx = [0.0, 12.0]\ny = [0.0, 8.0]\nboundary = \"periodic\"\n[[disks]]\ncount = 60\nradius = 0.5\n"
+                  "mass = 1.0\npositions = \"random\"\nvelocities = { temperature = 1.0 }\n[collision]\nrule = \"specular\"\n" +
+                  effect + "[run]\ntime = 400.0\n[observe]\nfields = { every = 0.5, cells = " + cells + " }\n"),
+      10.0);
+}
+
+TEST(Fields, OfABathHaveItsTemperatureAndNoFluxesOfCollisions) {
+  const Observed o = driven("[thermostat]\ntemperature = 2.0\nrate = 1.0\n", "[2, 2]");
+  for (std::size_t cell = 0; cell < 4; ++cell) {
+    // A cell has velocities relative to its own mean, which takes a part 1/n of the temperature, n = 15 disks x 800 samples.
+    EXPECT_NEAR(field(o, "temperature")[cell], 2.0, 4.0 * field(o, "temperature_error")[cell] + 2.0 / 12000.0);
+    EXPECT_LT(field(o, "temperature_error")[cell], 0.1);
+  }
+  EXPECT_NEAR(mean_of(field(o, "density")), 60.0 / 96.0, 1e-12);
+  for (const Table& table : o.of("fields").tables)
+    EXPECT_EQ(table.columns.back().name.rfind("temperature", 0), 0U) << "the last of those that need no collisions";
+  EXPECT_THAT(o.of("fields").note, testing::HasSubstr("without stress and heat flux: [thermostat] changes velocities between "
+                                                      "collisions"));
+}
+
+TEST(Fields, OfAShearedFluidHaveItsFlow) {
+  const Observed o = driven("[shear]\nrate = 0.5\n[thermostat]\ntemperature = 1.0\nrate = 1.0\n", "[2, 8]");
+  for (std::size_t cell = 0; cell < 16; ++cell) {
+    const double y = o.column("fields", 0, "y")[cell];
+    EXPECT_NEAR(field(o, "velocity_x")[cell], 0.5 * (y - 4.0), 4.0 * field(o, "velocity_x_error")[cell]) << y;
+    EXPECT_NEAR(field(o, "velocity_y")[cell], 0.0, 4.0 * field(o, "velocity_y_error")[cell]) << y;
+    EXPECT_LT(field(o, "velocity_x_error")[cell], 0.1);
+  }
+}
+
+TEST(Fields, AreThereWhateverChangesVelocitiesBetweenCollisions) {
+  for (const char* effect :
+       {"[brownian]\ntemperature = 1.0\nrate = 10.0\n", "[drag]\nrate = 0.001\n", "[tumbling]\nrate = 1.0\n"})
+    EXPECT_NEAR(mean_of(field(driven(effect, "[2, 1]"), "density")), 60.0 / 96.0, 1e-12) << effect;
+}
+
 TEST(SlowFields, HeatFluxIsTheSameThroughEveryLineBetweenWallsOfTwoTemperatures) {
   const Observed o = observe(
       parse_scene(
