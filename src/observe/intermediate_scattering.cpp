@@ -4,6 +4,7 @@
 
 #include "observe/lagged_rows.hpp"
 #include "observe/observables.hpp"
+#include "observe/relaxation_time.hpp"
 #include "observe/saved_observable.hpp"
 
 #include <algorithm>
@@ -70,7 +71,8 @@ class IntermediateScattering final : public SavedObservable<IntermediateScatteri
     for (const Eigen::Vector2d& vector : vectors_) k += vector.norm() / static_cast<double>(vectors_.size());
     found.scalars.push_back({.name = "k", .unit = "1 / length", .value = k, .note = "mean length of the wave vectors"});
     for (std::size_t s = 0; s < run_.species_count(); ++s)
-      if (followed_.channels(s) > 0) found.scalars.push_back(relaxation_time(s));
+      if (followed_.channels(s) > 0)
+        found.scalars.push_back(relaxation_time("relaxation_time" + run_.suffix(s), self_[s], step_, "F_self"));
     if (all_.size() == 0) {
       found.note = "the run is too short";
       return found;
@@ -96,27 +98,6 @@ class IntermediateScattering final : public SavedObservable<IntermediateScatteri
   }
 
  private:
-  /// Returns the time at which F_s has fallen to 1/e, between two rows in proportion to the logarithm of time.
-  [[nodiscard]] Scalar relaxation_time(std::size_t s) const {
-    Scalar found{.name = "relaxation_time" + run_.suffix(s), .unit = "time"};
-    const double level = 1.0 / std::numbers::e;
-    for (std::size_t row = 2; row < self_[s].size(); ++row) {
-      const auto before = self_[s].estimate(row - 1), here = self_[s].estimate(row);
-      if (!before || !here || !(before->mean >= level && here->mean < level)) continue;
-      const double from = std::log(LaggedStates::lag(row - 1)), to = std::log(LaggedStates::lag(row));
-      const double slope = (here->mean - before->mean) / (to - from);
-      const double time = step_ * std::exp(from + (level - before->mean) / slope);
-      found.value = time;
-      if (before->error && here->error) found.error = time * std::max(*before->error, *here->error) / std::abs(slope);
-      const bool is_nearer_to_this = level - here->mean < before->mean - level;
-      const double at_row = is_nearer_to_this ? here->mean : before->mean, per_fall = -time / slope;
-      found.halves = in_proportion(self_[s].halves(is_nearer_to_this ? row : row - 1), per_fall, time - per_fall * at_row);
-      return found;
-    }
-    found.note = "F_self does not fall to 1/e between one step and the longest lag";
-    return found;
-  }
-
   DisksAtLags followed_;
   std::vector<Eigen::Vector2d> vectors_;
   LaggedStates modes_;

@@ -1,6 +1,6 @@
 // Mean square displacement and what diffusion coefficient it amounts to at each lag: D(t) = <|r(t) - r(0)|^2> / 4 t. In two
-// dimensions D grows with the logarithm of t, so there is no limit to report. Averages over time, of some disks of each
-// species.
+// dimensions D grows with the logarithm of t, so there is no limit to report, but D at a lag that the run knows well. Averages
+// over time, of some disks of each species.
 
 #include "observe/blocking.hpp"
 #include "observe/multiple_tau.hpp"
@@ -8,6 +8,10 @@
 #include "observe/saved_observable.hpp"
 #include "observe/tracked_disks.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
 #include <vector>
 
 namespace carom {
@@ -39,6 +43,7 @@ class MeanSquareDisplacement final : public SavedObservable<MeanSquareDisplaceme
     std::vector<MultipleTau::Row> all;
     for (std::size_t s = 0; s < ladders_.size(); ++s) {
       const std::vector<MultipleTau::Row> rows = ladders_[s].rows();
+      if (tracked_[s].channels() > 0) found.scalars.push_back(diffusion_of(rows, s));
       if (rows.empty()) continue;
       all.insert(all.end(), rows.begin(), rows.end());
       const std::string suffix = run_.suffix(s);
@@ -75,6 +80,23 @@ class MeanSquareDisplacement final : public SavedObservable<MeanSquareDisplaceme
   }
 
  private:
+  /// Returns the diffusion coefficient at the longest lag at which it is well known.
+  [[nodiscard]] Scalar diffusion_of(const std::vector<MultipleTau::Row>& rows, std::size_t species) const {
+    Scalar scalar{.name = "diffusion" + run_.suffix(species), .unit = "length^2 / time"};
+    const auto is_known = [](const MultipleTau::Row& row) {
+      return row.pairs.error && *row.pairs.error <= most_error_of_halves * row.pairs.mean;
+    };
+    const auto longest = std::find_if(rows.rbegin(), rows.rend(), is_known);
+    if (longest == rows.rend()) {
+      scalar.note = "the run is too short: at no lag is it known to 5 %";
+      return scalar;
+    }
+    const double lag = step_ * longest->lag;
+    scalar.note = fmt::format("at lag {:.4g}, the longest at which it is known to 5 %", lag);
+    longest->fill(scalar, step_, 0.5 / lag);  // 2 of one component over 4 t
+    return scalar;
+  }
+
   std::vector<TrackedDisks> tracked_;
   std::vector<MultipleTau> ladders_;
 };

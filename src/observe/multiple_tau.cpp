@@ -1,5 +1,7 @@
 #include "observe/multiple_tau.hpp"
 
+#include "observe/blocking.hpp"
+
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -210,6 +212,15 @@ std::vector<MultipleTau::Row> MultipleTau::rows() {
     }
   }
   return rows;
+}
+
+void MultipleTau::Row::fill(Scalar& scalar, double step, double factor) const {
+  const Blocking::Estimate& found = estimate();
+  scalar.value = factor * found.mean;
+  scalar.error = factor * *found.error;
+  scalar.halves = in_proportion(if_known(integral ? integral_halves : halves), factor);
+  if (found.statistical_inefficiency) scalar.integrated_correlation_time = 0.5 * step * width * *found.statistical_inefficiency;
+  if (found.lower_bound) scalar.note += "; the run is too short for its correlations: the error is a lower bound";
 }
 
 std::string MultipleTau::note_on_errors(const std::vector<Row>& rows) {

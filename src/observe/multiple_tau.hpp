@@ -42,6 +42,11 @@ class MultipleTau {
     /// Products only: the integral from 0 to lag + width / 2, per step.
     std::optional<Blocking::Estimate> integral = {};
     std::optional<Halves> integral_halves = {};
+    /// Returns the integral where there is one, else the pairs.
+    [[nodiscard]] const Blocking::Estimate& estimate() const { return integral ? *integral : pairs; }
+    /// Sets a scalar to `factor` times estimate(), with error, correlation time and halves where they are known. `step` is the
+    /// time of a step; the note gets a sentence where the error is a lower bound. Requires that the error is known.
+    void fill(Scalar& scalar, double step, double factor) const;
   };
   /// Returns the rows in order of the lag, as far as there are pairs. Squared differences begin with lag 1.
   [[nodiscard]] std::vector<Row> rows();

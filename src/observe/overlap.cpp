@@ -1,9 +1,10 @@
 // How much of a configuration is left after a time: the overlap Q(t), the share of the disks that are nearer to where they were
-// than a distance a, and its fluctuations chi_4(t) = n (<Q^2> - <Q>^2) over origins, n disks. Averages over time. Motion of the
-// centre of mass is left out.
+// than a distance a, and its fluctuations chi_4(t) = n (<Q^2> - <Q>^2) over origins, n disks. The
+// relaxation time is where Q falls to 1/e. Averages over time. Motion of the centre of mass is left out.
 
 #include "observe/lagged_rows.hpp"
 #include "observe/observables.hpp"
+#include "observe/relaxation_time.hpp"
 #include "observe/saved_observable.hpp"
 
 #include <cmath>
@@ -39,6 +40,8 @@ class Overlap final : public SavedObservable<Overlap> {
     Table table{.name = name()};
     bool is_part = false;
     for (std::size_t s = 0; s < run_.species_count(); ++s) {
+      if (followed_.channels(s) > 0)
+        found.scalars.push_back(relaxation_time("relaxation_time" + run_.suffix(s), overlap_[s], step_, "the overlap"));
       if (overlap_[s].size() < 2) continue;
       if (table.columns.empty()) table.columns.push_back(lag_column(1, overlap_[s].size(), step_));
       LaggedColumn overlap("overlap" + run_.suffix(s), ""), chi("chi_4" + run_.suffix(s), "");

@@ -77,10 +77,8 @@ std::string at_lag(double lag) {
 /// Returns the last row that `until` allows and whose error is known; null where there is none.
 const MultipleTau::Row* longest_row(const std::vector<MultipleTau::Row>& rows, double until) {
   const MultipleTau::Row* best = nullptr;
-  for (const MultipleTau::Row& row : rows) {
-    const Blocking::Estimate& found = row.integral ? *row.integral : row.pairs;
-    if (row.lag > 0.0 && row.lag <= until && found.error) best = &row;
-  }
+  for (const MultipleTau::Row& row : rows)
+    if (row.lag > 0.0 && row.lag <= until && row.estimate().error) best = &row;
   return best;
 }
 
@@ -90,15 +88,8 @@ Scalar coefficient(std::string name, const std::string& unit, double step, doubl
     scalar.note = "the run is too short";
     return scalar;
   }
-  const Blocking::Estimate& found = row->integral ? *row->integral : row->pairs;
-  const double lag = row->integral ? row->lag + 0.5 * row->width : row->lag;
-  scalar.value = factor * found.mean;
-  scalar.error = factor * *found.error;
-  scalar.halves = in_proportion(if_known(row->integral ? row->integral_halves : row->halves), factor);
-  if (found.statistical_inefficiency)
-    scalar.integrated_correlation_time = 0.5 * step * row->width * *found.statistical_inefficiency;
-  scalar.note = at_lag(step * lag);
-  if (found.lower_bound) scalar.note += "; the run is too short for its correlations: the error is a lower bound";
+  scalar.note = at_lag(step * (row->integral ? row->lag + 0.5 * row->width : row->lag));
+  row->fill(scalar, step, factor);
   return scalar;
 }
 

@@ -3,6 +3,7 @@
 #include "observe/observed_system.hpp"
 #include "support/systems.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -50,6 +51,42 @@ TEST(ObservedCorrelations, MeanSquareDisplacementIsThatOfAllPairsOfStates) {
     EXPECT_NEAR(o.column("mean_square_displacement", 0, "msd")[r], msd, rounding_of_correlations) << "lag " << lags[r];
     EXPECT_NEAR(o.column("mean_square_displacement", 0, "diffusion")[r], msd / (4.0 * lags[r]), rounding_of_correlations);
   }
+}
+
+/// Disks so small that they hardly meet, whose velocities a bath draws anew.
+Observed in_a_bath(double rate, double time, const std::string& observable) {
+  return observe(parse_scene(fmt::format(
+                     "[box]\nx = [0.0, 10.0]\ny = [0.0, 10.0]\nboundary = \"periodic\"\n[[disks]]\ncount = 40\nradius = 0.005\n"
+                     "mass = 2.0\npositions = \"random\"\nvelocities = {{ temperature = 1.0 }}\n[collision]\nrule = "
+                     "\"specular\"\n[thermostat]\ntemperature = 1.0\nrate = {}\n[run]\ntime = {}\n[observe]\n{}\n",
+                     rate, time, observable)),
+                 time);
+}
+
+TEST(ObservedCorrelations, DiffusionIsThatOfTheLongestLagThatIsWellKnown) {
+  const Observed o = in_a_bath(1.0, 1000.0, "mean_square_displacement = { every = 0.5 }");
+  const Scalar& D = o.scalar("mean_square_displacement", "diffusion");
+  const auto column = [&](const char* name) { return o.column("mean_square_displacement", 0, name); };
+  double lag = 0.0;
+  for (std::size_t row = 0; row < column("lag").size(); ++row)
+    if (column("diffusion_error")[row] <= 0.05 * column("diffusion")[row]) lag = column("lag")[row];
+  ASSERT_GT(lag, 10.0);
+  EXPECT_THAT(D.note, testing::StartsWith(fmt::format("at lag {:.4g}, the longest", lag)));
+  // <v(0) v(t)> falls as exp(-t) from kT/m = 1/2 of each component: D(t) = (1 - (1 - exp(-t)) / t) / 2.
+  EXPECT_NEAR(*D.value, 0.5 * (1.0 - (1.0 - std::exp(-lag)) / lag), 4.0 * *D.error);
+  EXPECT_LE(*D.error, 0.05 * *D.value);
+  EXPECT_EQ(D.unit, "length^2 / time");
+  const Scalar none =
+      in_a_bath(1.0, 2.0, "mean_square_displacement = { every = 0.5 }").scalar("mean_square_displacement", "diffusion");
+  EXPECT_FALSE(none.value);
+  EXPECT_EQ(none.note, "the run is too short: at no lag is it known to 5 %");
+}
+
+TEST(ObservedCorrelations, RelaxationTimeIsWhereTheOverlapFallsToOneOverE) {
+  const Observed o = in_a_bath(0.02, 1500.0, "overlap = { every = 0.05, range = 30.0 }");
+  const Scalar& found = o.scalar("overlap", "relaxation_time");
+  // Of Maxwell's velocities the share 1 - exp(-m a^2 / 2 kT t^2) moves less than a = 0.3 in t, m / 2 kT = 1.
+  EXPECT_NEAR(found.value.value(), 0.3 / std::sqrt(-std::log(1.0 - std::exp(-1.0))), 4.0 * found.error.value());
 }
 
 TEST(ObservedCorrelations, VelocityAutocorrelationAtShortLagsIsThatOfAllPairsOfStates) {

@@ -166,15 +166,14 @@ TEST_F(SweepReader, ATableHasNumbersThatSomePointOfThisVerySweepHas) {
             "");
   const auto observed = [&](const std::string& name) {
     return files_.refusal(scene_line + "table = [\"observables." + name +
-                          "\"]\n[set]\nobserve = { pressure = true, mean_square_displacement = true }\n");
+                          "\"]\n[set]\nobserve = { pressure = true, non_gaussian = true }\n");
   };
   EXPECT_EQ(observed("pressure.Z_error"), "");
   EXPECT_THAT(observed("pressure.Zet"), HasSubstr("did you mean \"observables.pressure.Z\"?"));
   EXPECT_THAT(observed("pressure.something_else"), HasSubstr("of pressure there are observables.pressure.Z"));
   EXPECT_THAT(observed("overlap.overlap@1"), AllOf(HasSubstr("does not ask for overlap, or it makes tables alone; there are"),
                                                    HasSubstr("observables.pressure.Z")));
-  EXPECT_THAT(observed("mean_square_displacement.something_else"),
-              HasSubstr("did you mean \"observables.mean_square_displacement.msd@lag\"?"));
+  EXPECT_THAT(observed("non_gaussian.something_else"), HasSubstr("did you mean \"observables.non_gaussian.alpha_2@lag\"?"));
   EXPECT_THAT(observed("msd.D"), HasSubstr("there is no observable \"msd\"; there are observables.pressure.Z"));
 }
 
