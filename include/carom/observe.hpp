@@ -25,8 +25,8 @@
 
 namespace carom {
 
-/// The measure of an average: a mean over time weighs long flights more than a mean over collisions does.
-enum class Average { time, collisions };
+/// The measure of an average: a mean over time weighs long flights more than a mean over collisions does. A `sum` is none.
+enum class Average { time, collisions, sum };
 
 /// The mean of a number over the first part of a run, about half of it, beside that over the rest.
 struct Halves {

@@ -1,6 +1,7 @@
 // Descriptions of trajectory.xyz, samples.csv and other tables. They are read line by line, so their size does not matter.
 
 #include "app/info_parts.hpp"
+#include "io/observable_output.hpp"
 #include "io/output_error.hpp"
 
 #include <fmt/format.h>
@@ -113,7 +114,7 @@ std::string describe_csv(const std::filesystem::path& path) {
   std::ifstream file(path);
   std::string line;
   std::getline(file, line);
-  if (line.starts_with("# averages over ")) return describe_observable_table(path, line, file);
+  if (average_in_comment(line)) return describe_observable_table(path, line, file);
   if (is_sweep_table(line)) return describe_sweep_table(path);
   if (is_columns_of_sweep(line)) return describe_columns_of_sweep(path);
   const std::string heading = line;

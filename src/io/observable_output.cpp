@@ -4,17 +4,46 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
 namespace carom {
+
+namespace {
+
+struct AverageWords {
+  Average average;
+  const char *word, *comment;
+};
+constexpr AverageWords words_of_averages[] = {{Average::time, "time", "# averages over time; units:"},
+                                              {Average::collisions, "collisions", "# averages over collisions; units:"},
+                                              {Average::sum, "sum", "# sums since the start; units:"}};
+
+const AverageWords& entry_of(Average average) { return *std::ranges::find(words_of_averages, average, &AverageWords::average); }
+
+}  // namespace
+
+const char* average_word(Average average) { return entry_of(average).word; }
+
+std::optional<Average> average_of_word(std::string_view word) {
+  for (const AverageWords& words : words_of_averages)
+    if (word == words.word) return words.average;
+  return {};
+}
+
+std::optional<Average> average_in_comment(std::string_view line) {
+  for (const AverageWords& words : words_of_averages)
+    if (line.starts_with(words.comment)) return words.average;
+  return {};
+}
 
 std::string table_file(const Table& table) { return fmt::format("observe_{}.csv", table.name); }
 
 void write_table(const std::filesystem::path& path, const Table& table) {
   detail::TextFile file(path);
   std::string& text = file.buffer();
-  text += fmt::format("# averages over {}; units:", table.average == Average::time ? "time" : "collisions");
+  text += entry_of(table.average).comment;
   for (std::size_t c = 0; c < table.columns.size(); ++c)
     text += fmt::format("{} {}", c == 0 ? "" : ",", table.columns[c].unit.empty() ? "1" : table.columns[c].unit);
   text += "\n";

@@ -7,13 +7,19 @@
 #include <carom/observe.hpp>
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace carom {
 
-/// Over what an average is: "time" or "collisions".
-[[nodiscard]] inline const char* average_word(Average average) { return average == Average::time ? "time" : "collisions"; }
+/// Returns over what an average is: "time", "collisions", or "sum" where it is none.
+[[nodiscard]] const char* average_word(Average average);
+/// Returns the average of such a word, or nothing where it is another one.
+[[nodiscard]] std::optional<Average> average_of_word(std::string_view word);
+/// Returns the average that the comment in the first line of a table names, or nothing where the line is no such comment.
+[[nodiscard]] std::optional<Average> average_in_comment(std::string_view line);
 
 /// Returns text such as "observe_NAME.csv"
 [[nodiscard]] std::string table_file(const Table& table);

@@ -1,6 +1,7 @@
 #include "io/summary.hpp"
 
 #include "io/json.hpp"
+#include "io/observable_output.hpp"
 
 #include <fmt/format.h>
 
@@ -105,10 +106,12 @@ std::optional<double> energy_scale_in(const RunReport& report, const Json& energ
   return {};
 }
 
+Average average_in(const Json& json) { return average_of_word(json.at("average").get<std::string>()).value_or(Average::time); }
+
 Scalar scalar_in(const std::string& name, const Json& json) {
   return {.name = name,
           .unit = json.value("unit", ""),
-          .average = json.at("average").get<std::string>() == "time" ? Average::time : Average::collisions,
+          .average = average_in(json),
           .value = number_in(json.at("value")),
           .error = number_in(json.at("error")),
           .integrated_correlation_time = number_in(json.at("integrated_correlation_time")),
@@ -121,9 +124,7 @@ Measurement measurement_in(const std::string& name, const Json& json) {
     if (key == "note") {
       found.note = entry.get<std::string>();
     } else if (key == "tables") {
-      for (const auto& [table, words] : entry.items())
-        found.tables.push_back(
-            {.name = table, .average = words.at("average").get<std::string>() == "time" ? Average::time : Average::collisions});
+      for (const auto& [table, words] : entry.items()) found.tables.push_back({.name = table, .average = average_in(words)});
     } else {
       found.scalars.push_back(scalar_in(key, entry));
     }

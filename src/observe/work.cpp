@@ -88,13 +88,14 @@ class Work final : public SavedObservable<Work>, public ChangeFollower {
   [[nodiscard]] Measurement finish(double, const Totals&) override {
     Measurement found{.name = name()};
     const auto put_sum = [&](std::string of, double value) {
-      found.scalars.push_back({.name = std::move(of), .unit = "energy", .value = value});
+      found.scalars.push_back({.name = std::move(of), .unit = "energy", .average = Average::sum, .value = value});
     };
     put_sum("work", total(work));
     put_sum("heat", total(heat));
     for (const Part& part : parts_) put_sum(part.name, sums_[part.at]);
     Table table{
         .name = name(),
+        .average = Average::sum,
         .columns = {{"time", "time", rows_.times()}, {"work", "energy", rows_.column(0)}, {"heat", "energy", rows_.column(1)}}};
     for (std::size_t k = 0; k < parts_.size(); ++k) table.columns.push_back({parts_[k].name, "energy", rows_.column(k + 2)});
     found.tables.push_back(std::move(table));

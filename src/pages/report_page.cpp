@@ -147,6 +147,7 @@ TextTable table_of_numbers(const RunReport& report, const RunTheory& theory) {
     for (const Scalar& scalar : measured.scalars) {
       const auto expected = theory.of(measured.name, scalar.name);
       std::string remark = scalar.note;
+      if (scalar.average == Average::sum) remark = fmt::format("a sum over the run{}{}", remark.empty() ? "" : "; ", remark);
       if (scalar.average == Average::collisions) remark = fmt::format("over collisions{}{}", remark.empty() ? "" : "; ", remark);
       if (scalar.value && !scalar.error) remark += remark.empty() ? "no error" : "; no error";
       table.rows.push_back({measured.name, scalar.name, scalar.value ? value_text(*scalar.value, scalar.error) : "–",

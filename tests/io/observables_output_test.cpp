@@ -13,6 +13,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace carom::test {
 namespace {
@@ -59,6 +60,20 @@ TEST(ObservablesOutput, TableIsACommentAHeadingAndRowsThatReadBack) {
             "# averages over collisions; units: time, 1 / time\nmiddle,density\n0.25,0.3333333333333333\n0.75,nan\n");
   EXPECT_THAT(describe_file(directory.path() / "t.csv"), HasSubstr("table of an observable"));
   EXPECT_THAT(describe_file(directory.path() / "t.csv"), HasSubstr("middle,density"));
+}
+
+TEST(ObservablesOutput, WordsOfAveragesReadBack) {
+  for (const auto& [average, word] :
+       {std::pair(Average::time, "time"), {Average::collisions, "collisions"}, {Average::sum, "sum"}}) {
+    EXPECT_STREQ(average_word(average), word);
+    EXPECT_EQ(average_of_word(word), average);
+    const TemporaryDirectory directory;
+    write_table(directory.path() / "t.csv", {.name = "t", .average = average, .columns = {{"x", "", {1.0}}}});
+    EXPECT_EQ(average_in_comment(text_of(directory.path() / "t.csv")), average);
+    EXPECT_THAT(describe_file(directory.path() / "t.csv"), HasSubstr("table of an observable"));
+  }
+  EXPECT_FALSE(average_of_word("speed"));
+  EXPECT_FALSE(average_in_comment("time,id,x,y,vx,vy"));
 }
 
 TEST(ObservablesOutput, RunWritesThemBesideSamplesAndIntoTheFileOfSamples) {

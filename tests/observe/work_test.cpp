@@ -222,6 +222,7 @@ TEST(Work, HasARowForEachInstant) {
   EXPECT_EQ(columns[0].values.back(), 8.0);
   EXPECT_EQ(columns[1].values.front(), 0.0);
   EXPECT_NEAR(columns[1].values.back(), found.numbers.at("work"), 1e-12);
+  EXPECT_EQ(found.tables[0].average, Average::sum);
 }
 
 }  // namespace

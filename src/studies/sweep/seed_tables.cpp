@@ -48,9 +48,9 @@ Table read_observed_table(const fs::path& path) {
   if (!std::getline(file, units) || !std::getline(file, names)) throw fault();
   constexpr std::string_view before_units = "units: ";
   const std::size_t begin = units.find(before_units);
-  if (!units.starts_with("# averages over ") || begin == std::string::npos) throw fault();
-  Table table{.name = path.stem().string().substr(std::string_view("observe_").size()),
-              .average = units.find("over collisions") != std::string::npos ? Average::collisions : Average::time};
+  const std::optional<Average> average = average_in_comment(units);
+  if (!average || begin == std::string::npos) throw fault();
+  Table table{.name = path.stem().string().substr(std::string_view("observe_").size()), .average = *average};
   const std::vector<std::string> unit_words = split_at_commas(units.substr(begin + before_units.size()));
   for (const std::string& name : split_at_commas(names)) {
     const std::size_t k = table.columns.size();
