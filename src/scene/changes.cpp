@@ -225,24 +225,9 @@ void take_where_it_lacks(std::optional<double>& number, const std::optional<doub
 
 Effects detail::merged(const Effects& one, const Effects& other) {
   Effects both = one;
-  const auto acts = [](const Effects& effects, std::string_view name) { return effect_named(name).acts(effects); };
-  const auto take = [&](auto Effects::*table, std::string_view name) {
-    if (!acts(one, name) && other.*table) both.*table = other.*table;
-  };
-  take(&Effects::gravity, "gravity");
-  take(&Effects::growth, "growth");
-  take(&Effects::thermostat, "thermostat");
-  take(&Effects::tumbling, "tumbling");
-  take(&Effects::brownian, "brownian");
-  take(&Effects::shear, "shear");
-  take(&Effects::square_well, "square_well");
-  take(&Effects::stepped_potential, "stepped_potential");
-  take(&Effects::drag, "drag");
-  if (one.obstacles.empty()) both.obstacles = other.obstacles;
+  for (const EffectTraits& effect : all_effects())
+    if (effect.take != nullptr && !effect.acts(one) && effect.is_present(other)) effect.take(both, other);
   if (other.collision.rule == CollisionRule::reversal) both.collision.rule = other.collision.rule;
-  take_where_it_lacks(both.collision.restitution, other.collision.restitution, 1.0);
-  take_where_it_lacks(both.collision.roughness, other.collision.roughness, -1.0);
-  take_where_it_lacks(both.collision.elastic_below, other.collision.elastic_below, 0.0);
   for (std::size_t w = 0; w < both.walls.size(); ++w) {
     WallProperties& wall = both.walls[w];
     const WallProperties& more = other.walls[w];

@@ -24,6 +24,18 @@ bool has_other_than_zero(const Effects& effects) {
   return has<Table>(effects) && (*(effects.*Table)).*Member != 0.0;
 }
 
+/// Sets a table as in other effects.
+template <auto Table>
+void take(Effects& effects, const Effects& other) {
+  effects.*Table = other.*Table;
+}
+
+/// Sets a number of the collision of two disks as in other effects.
+template <auto Member>
+void take_of_collision(Effects& effects, const Effects& other) {
+  effects.collision.*Member = other.collision.*Member;
+}
+
 template <auto Table, auto Member>
 EffectNumber number(const NumberKey& key, std::string_view unit, double neutral, double mild) {
   return {&key,
@@ -63,6 +75,7 @@ std::vector<EffectTraits> make_table() {
        .absence = "inelastic collisions",
        .is_present = [](const Effects& e) { return e.collision.restitution.has_value(); },
        .acts = [](const Effects& e) { return e.collision.restitution.value_or(1.0) != 1.0; },
+       .take = take_of_collision<&Collision::restitution>,
        .conserves_energy = false,
        .runs_by_fixed_steps = true,
        .why_no_Z = "collisions take energy away",
@@ -72,6 +85,7 @@ std::vector<EffectTraits> make_table() {
        .absence = "rough disks with spin",
        .is_present = [](const Effects& e) { return e.collision.roughness.has_value(); },
        .acts = [](const Effects& e) { return e.collision.roughness.value_or(-1.0) != -1.0; },
+       .take = take_of_collision<&Collision::roughness>,
        .conserves_energy = false,
        .lets_temperature_fluctuate = true,
        .bytes_per_disk = 8,
@@ -80,12 +94,14 @@ std::vector<EffectTraits> make_table() {
        .title = "elastic_below",
        .is_present = [](const Effects& e) { return e.collision.elastic_below.has_value(); },
        .acts = [](const Effects& e) { return e.dissipate() && e.collision.elastic_below.value_or(0.0) > 0.0; },
+       .take = take_of_collision<&Collision::elastic_below>,
        .bytes_per_disk = 8},
       {.name = "gravity",
        .title = "[gravity]",
        .absence = "gravity",
        .is_present = has<&Effects::gravity>,
        .acts = [](const Effects& e) { return !e.acceleration().isZero(0.0); },
+       .take = take<&Effects::gravity>,
        .other_keys = {"acceleration"},
        .unit_of_other_keys = "length / time^2",
        .words =
@@ -171,6 +187,7 @@ std::vector<EffectTraits> make_table() {
        .absence = "obstacles",
        .is_present = [](const Effects& e) { return !e.obstacles.empty(); },
        .acts = [](const Effects& e) { return !e.obstacles.empty(); },
+       .take = take<&Effects::obstacles>,
        .other_keys = {"disk", "segment", "arc"},
        .unit_of_other_keys = "length",
        .words =
@@ -194,6 +211,7 @@ std::vector<EffectTraits> make_table() {
        .title = "box.circle",
        .is_present = [](const Effects& e) { return e.circle.has_value(); },
        .acts = [](const Effects& e) { return e.circle.has_value(); },
+       .take = take<&Effects::circle>,
        .words =
            [](const Effects& e) {
              return fmt::format("the box is a circle of radius {:.6g} round ({:.6g}, {:.6g}), a hard wall", e.circle->radius,
@@ -209,6 +227,7 @@ std::vector<EffectTraits> make_table() {
        .absence = "growing disks",
        .is_present = has<&Effects::growth>,
        .acts = has_other_than_zero<&Effects::growth, &Growth::rate>,
+       .take = take<&Effects::growth>,
        .numbers = {number<&Effects::growth, &Growth::rate>(keys::growth_rate, "1 / time", 0.0, 1e-4)},
        .other_keys = {"until"},
        .words =
@@ -233,6 +252,7 @@ std::vector<EffectTraits> make_table() {
        .absence = "a thermostat",
        .is_present = has<&Effects::thermostat>,
        .acts = has_other_than_zero<&Effects::thermostat, &Thermostat::rate>,
+       .take = take<&Effects::thermostat>,
        .numbers = {number<&Effects::thermostat, &Thermostat::temperature>(keys::bath_temperature, "energy", 1.0, 1.0),
                    number<&Effects::thermostat, &Thermostat::rate>(keys::bath_rate, "1 / time", 0.0, 0.1)},
        .words =
@@ -254,6 +274,7 @@ std::vector<EffectTraits> make_table() {
        .absence = "run-and-tumble motion",
        .is_present = has<&Effects::tumbling>,
        .acts = has_other_than_zero<&Effects::tumbling, &Tumbling::rate>,
+       .take = take<&Effects::tumbling>,
        .numbers = {number<&Effects::tumbling, &Tumbling::rate>(tumbling_rate, "1 / time", 0.0, 0.1)},
        .words =
            [](const Effects& e) {
@@ -273,6 +294,7 @@ std::vector<EffectTraits> make_table() {
        .absence = "Brownian motion",
        .is_present = has<&Effects::brownian>,
        .acts = has_other_than_zero<&Effects::brownian, &Brownian::rate>,
+       .take = take<&Effects::brownian>,
        .numbers = {number<&Effects::brownian, &Brownian::temperature>(brownian_temperature, "energy", 1.0, 1.0),
                    number<&Effects::brownian, &Brownian::rate>(brownian_rate, "1 / time", 0.0, 10.0)},
        .words =
@@ -295,6 +317,7 @@ std::vector<EffectTraits> make_table() {
        .absence = "shear",
        .is_present = has<&Effects::shear>,
        .acts = has_other_than_zero<&Effects::shear, &Shear::rate>,
+       .take = take<&Effects::shear>,
        .numbers = {number<&Effects::shear, &Shear::rate>(keys::shear_rate, "1 / time", 0.0, 0.001)},
        .words = [](const Effects& e) { return fmt::format("the flow is v_x = {:.6g} y (Lees-Edwards)", e.shear->rate); },
        .excludes = {{"gravity", true}, {"obstacles", true}, {"growth", true}, {"square_well", true}, {"stepped_potential", true}},
@@ -312,6 +335,7 @@ std::vector<EffectTraits> make_table() {
        .absence = "square wells",
        .is_present = has<&Effects::square_well>,
        .acts = has_other_than_zero<&Effects::square_well, &SquareWell::depth>,
+       .take = take<&Effects::square_well>,
        .numbers = {number<&Effects::square_well, &SquareWell::width>(keys::well_width, "", 1.5, 1.5),
                    number<&Effects::square_well, &SquareWell::depth>(keys::well_depth, "energy", 0.0, 0.1)},
        .words =
@@ -332,6 +356,7 @@ std::vector<EffectTraits> make_table() {
        .absence = "stepped potentials",
        .is_present = has<&Effects::stepped_potential>,
        .acts = [](const Effects& e) { return e.stepped_potential && !e.potential_steps().empty(); },
+       .take = take<&Effects::stepped_potential>,
        .other_keys = {"steps"},
        .words =
            [](const Effects& e) {
@@ -354,6 +379,7 @@ std::vector<EffectTraits> make_table() {
        .absence = "drag",
        .is_present = has<&Effects::drag>,
        .acts = has_other_than_zero<&Effects::drag, &Drag::rate>,
+       .take = take<&Effects::drag>,
        .numbers = {number<&Effects::drag, &Drag::rate>(drag_rate, "1 / time", 0.0, 0.001)},
        .words = [](const Effects& e) { return fmt::format("dv/dt = -{:.6g} v between collisions", e.drag->rate); },
        .excludes = {{"roughness"},
@@ -388,6 +414,7 @@ std::vector<EffectTraits> make_table() {
                                          std::ranges::any_of(e.non_additivity->pairs,
                                                              [](const NonAdditivity::Pair& pair) { return pair.delta != 0.0; }));
            },
+       .take = take<&Effects::non_additivity>,
        .numbers = {number<&Effects::non_additivity, &NonAdditivity::delta>(keys::delta, "", 0.0, -0.1)},
        .other_keys = {"pairs"},
        .words =

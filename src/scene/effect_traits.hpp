@@ -35,6 +35,8 @@ struct EffectTraits {
   std::string_view absence = {};       ///< where it is absent, in `carom check`; empty where another row speaks for it
   bool (*is_present)(const Effects&);  ///< the scene names it
   bool (*acts)(const Effects&);        ///< the scene names it at another value than its neutral one, which leaves the same bits
+  void (*take)(Effects& effects, const Effects& other) =
+      nullptr;  ///< sets it as in `other`; null for those of walls, of which each side is by itself
 
   std::vector<EffectNumber> numbers = {};         ///< of the table [name], all of them required
   std::vector<std::string_view> other_keys = {};  ///< of that table, which have readers of their own

@@ -1,8 +1,10 @@
-// The table of effects against what the engines do: what each effect conserves, and the memory that it takes.
+// The table of effects against what engines and changes do: what each effect conserves, the memory that it takes, and whether a
+// run knows it that has it for a while.
 
 #include "observe/mechanics.hpp"
 #include "pages/scene_words.hpp"
 #include "runner/expected_cost.hpp"
+#include "scene/changes.hpp"
 #include "scene/effect_traits.hpp"
 #include "support/effect_scenes.hpp"
 #include "support/scenes.hpp"
@@ -151,6 +153,18 @@ TEST_P(EffectTraitsHold, MomentumAlongAPeriodicAxisIsConservedAsTheTableSays) {
     } else {
       EXPECT_GT(change, 1e-3);
     }
+  }
+}
+
+TEST_P(EffectTraitsHold, AnEffectOfAnyPartOfARunIsOneOfTheWholeRun) {
+  const EffectTraits& effect = detail::effect_named(GetParam());
+  Scene scene;
+  set_strong(scene, effect);
+  const Effects with = scene.effects, without;
+  for (const Effects& whole : {detail::merged(without, with), detail::merged(with, without)}) {
+    EXPECT_TRUE(effect.acts(whole));
+    EXPECT_EQ(whole.acting(), with.acting());
+    EXPECT_EQ(words_beyond_the_rule(whole), words_beyond_the_rule(with));
   }
 }
 

@@ -1,9 +1,12 @@
-// Lists of changes as text: every kind is read as it was written, and what is wrong is refused with its place.
+// Lists of changes as text: every kind is read as it was written, what is wrong is refused with its place, and effects that they
+// bring in are effects of the whole run.
 
 #include "scene/changes.hpp"
+#include "scene/effect_traits.hpp"
 
 #include <carom/scene.hpp>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -52,6 +55,19 @@ TEST(Changes, AreReadAsTheyWereWritten) {
 }
 
 TEST(Changes, MayBeNone) { EXPECT_TRUE(parse_changes("", "list.toml").empty()); }
+
+TEST(Changes, BringTheirEffectsIntoTheWholeRun) {
+  for (const detail::EffectTraits& effect : detail::all_effects()) {
+    if (effect.numbers.empty()) continue;
+    SCOPED_TRACE(effect.name);
+    SetKeys set;
+    for (const detail::EffectNumber& number : effect.numbers)
+      set.overrides.push_back(fmt::format("{}.{}={}", effect.name, number.key->name, number.mild));
+    Scene scene;
+    scene.changes = {{1.0, ScaleVelocities{1.0}}, {2.0, set}};
+    EXPECT_EQ(detail::effects_of_whole_run(scene).acting(), std::vector<std::string>{std::string(effect.name)});
+  }
+}
 
 TEST(Changes, AreRefusedWithTheirPlace) {
   EXPECT_THAT(refusal_of("[[changes]]\nremove_disk = 1\n"), HasSubstr("list.toml:1:1: [[changes]] lacks time"));
