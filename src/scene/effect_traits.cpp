@@ -103,7 +103,7 @@ std::vector<EffectTraits> make_table() {
        .acts = [](const Effects& e) { return !e.acceleration().isZero(0.0); },
        .take = take<&Effects::gravity>,
        .other_keys = {"acceleration"},
-       .unit_of_other_keys = "length / time^2",
+       .units_of_other_keys = {{"acceleration", "length / time^2"}},
        .words =
            [](const Effects& e) {
              return fmt::format("acceleration ({:.6g}, {:.6g})", e.acceleration().x(), e.acceleration().y());
@@ -189,7 +189,7 @@ std::vector<EffectTraits> make_table() {
        .acts = [](const Effects& e) { return !e.obstacles.empty(); },
        .take = take<&Effects::obstacles>,
        .other_keys = {"disk", "segment", "arc"},
-       .unit_of_other_keys = "length",
+       .units_of_other_keys = {{"#.arc.from", "degrees"}, {"#.arc.to", "degrees"}, {"#", "length"}},
        .words =
            [](const Effects& e) {
              std::array<std::uint64_t, 3> counts{};
@@ -358,6 +358,7 @@ std::vector<EffectTraits> make_table() {
        .acts = [](const Effects& e) { return e.stepped_potential && !e.potential_steps().empty(); },
        .take = take<&Effects::stepped_potential>,
        .other_keys = {"steps"},
+       .units_of_other_keys = {{"steps.#.energy", "energy"}},
        .words =
            [](const Effects& e) {
              const std::vector<PotentialStep>& steps = e.stepped_potential->steps;

@@ -23,6 +23,12 @@ struct EffectNumber {
   double mild = 0.0;  ///< with all numbers at these values it acts without making another gas of one at sigma = m = kT = 1
 };
 
+/// The unit of numbers under a key with a reader of its own.
+struct KeyUnit {
+  std::string_view key;  ///< beginning of their names in the effect's table, entries of lists as #: "steps.#.energy"
+  std::string_view unit;
+};
+
 /// Another effect with which one cannot act together. Where `at_neutral_value`, a scene may not even name both.
 struct Exclusion {
   std::string_view other;  ///< EffectTraits::name
@@ -40,7 +46,7 @@ struct EffectTraits {
 
   std::vector<EffectNumber> numbers = {};         ///< of the table [name], all of them required
   std::vector<std::string_view> other_keys = {};  ///< of that table, which have readers of their own
-  std::string_view unit_of_other_keys = {};       ///< unit of the numbers under them; empty for pure numbers
+  std::vector<KeyUnit> units_of_other_keys = {};  ///< the first that fits is that of a number; those that none fits are pure
   std::string (*words)(const Effects&) =
       nullptr;  ///< what it does, with its numbers; null where the words on collision or walls contain it
   std::vector<Exclusion> excludes = {};  ///< effects with which it cannot be combined

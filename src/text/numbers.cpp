@@ -23,6 +23,7 @@ std::string unit_words(std::string_view unit) {
 
 std::string with_unit(const std::string& label, std::string_view unit) {
   if (unit.empty()) return label;
+  if (unit == "degrees") return fmt::format("{} (degrees)", label);
   return label == unit ? fmt::format("{} (scene units)", label) : fmt::format("{} ({} in scene units)", label, unit_words(unit));
 }
 

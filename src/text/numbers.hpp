@@ -12,7 +12,7 @@ namespace carom {
 [[nodiscard]] std::string unit_words(std::string_view unit);
 
 /// Returns the label of an axis, heading or line with its unit in brackets, which is empty for a pure number: "speed (length /
-/// time in scene units)", "time (scene units)".
+/// time in scene units)", "time (scene units)", "from (degrees)".
 [[nodiscard]] std::string with_unit(const std::string& label, std::string_view unit);
 
 /// Returns 1234567 as "1,234,567"

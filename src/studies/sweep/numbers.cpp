@@ -18,6 +18,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <regex>
 #include <span>
 #include <system_error>
 
@@ -49,14 +50,17 @@ constexpr std::array<UnitOf, 17> of_numbers = {{{"time", "time", "time"},
                                                 {"walls.", ".velocity", "length / time"},
                                                 {"dissipated", "dissipated", "energy"}}};
 
-constexpr std::array<UnitOf, 21> of_keys = {{{"box.x", "", "length"},
-                                             {"box.circle.", "", "length"},
+/// The first that fits; entries of lists are #.
+constexpr std::array<UnitOf, 24> of_keys = {{{"box.x", "", "length"},
                                              {"box.y", "", "length"},
-                                             {"disks.", ".radius", "length"},
-                                             {"disks.", ".mass", "mass"},
-                                             {"disks.", ".temperature", "energy"},
-                                             {"disks.", ".uniform", "length / time"},
-                                             {"disks.", ".speed", "length / time"},
+                                             {"box.circle.", "", "length"},
+                                             {"disks.#.radius", "", "length"},
+                                             {"disks.#.mass.per_area", "", "mass / area"},
+                                             {"disks.#.mass", "", "mass"},
+                                             {"disks.#.positions.#", "", "length"},
+                                             {"disks.#.positions.random.", "", "length"},
+                                             {"disks.#.velocities.temperature", "", "energy"},
+                                             {"disks.#.velocities.", "", "length / time"},
                                              {"collision.", ".time", "time"},
                                              {"walls.", ".temperature", "energy"},
                                              {"walls.", ".velocity", "length / time"},
@@ -69,12 +73,19 @@ constexpr std::array<UnitOf, 21> of_keys = {{{"box.x", "", "length"},
                                              {"run.sample_every", "sample_every", "time"},
                                              {"run.sample_log", ".block", "time"},
                                              {"run.", "time", "time"},
-                                             {"observe.", ".every", "time"}}};
+                                             {"observe.", ".every", "time"},
+                                             {"changes.#.time", "", "time"}}};
 
 std::string unit_in(std::span<const UnitOf> units, std::string_view name) {
   const auto fits = [&](const UnitOf& entry) { return name.starts_with(entry.first) && name.ends_with(entry.last); };
   const auto found = std::find_if(units.begin(), units.end(), fits);
   return found == units.end() ? std::string() : std::string(found->unit);
+}
+
+/// Returns a key with # in the place of each number of an entry; an obstacle that a change adds is one of the scene.
+std::string without_entries(std::string_view key) {
+  static const std::regex entry("\\.[0-9]+(?=\\.|$)"), added("^changes\\.#\\.add_obstacle");
+  return std::regex_replace(std::regex_replace(std::string(key), entry, ".#"), added, "obstacles.#");
 }
 
 }  // namespace
@@ -84,12 +95,13 @@ std::string unit_of_number(std::string_view name) {
   return unit.empty() ? unit_in(of_numbers, name) : unit;
 }
 
-std::string unit_of_key(std::string_view key) {
+std::string unit_of_key(std::string_view given) {
+  const std::string key = without_entries(given);
   for (const detail::EffectTraits& effect : detail::all_effects()) {
     for (const detail::EffectNumber& number : effect.numbers)
       if (key == fmt::format("{}.{}", effect.name, number.key->name)) return std::string(number.unit);
-    if (!effect.unit_of_other_keys.empty() && key.starts_with(fmt::format("{}.", effect.name)))
-      return std::string(effect.unit_of_other_keys);
+    for (const detail::KeyUnit& other : effect.units_of_other_keys)
+      if (key.starts_with(fmt::format("{}.{}", effect.name, other.key))) return std::string(other.unit);
   }
   return unit_in(of_keys, key);
 }
