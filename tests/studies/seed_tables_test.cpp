@@ -45,14 +45,35 @@ TEST(MeanOfTables, HasTheScatterOfSeedsInPlaceOfTheirErrors) {
 TEST(ValueAt, IsOnAStraightLineBetweenTheRowsAround) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   const Table table = seed_table({1, 2, 4, 8}, {1, 5, none, 7});
-  EXPECT_EQ(value_at(table, "x", 1.0), 1.0);
-  EXPECT_EQ(value_at(table, "x", 1.25), 2.0);
-  EXPECT_EQ(value_at(table, "x_error", 3.0), 9.0);
-  EXPECT_EQ(value_at(table, "x", 8.0), 7.0);
-  EXPECT_EQ(value_at(seed_table({3 * 0.1, 0.4}, {2, 6}), "x", 0.3), 2.0) << "0.1 + 0.1 + 0.1 is not 0.3 in binary";
-  for (const double absent : {0.5, 3.0, 6.0, 9.0}) EXPECT_EQ(value_at(table, "x", absent), std::nullopt) << absent;
-  EXPECT_EQ(value_at(table, "y", 1.0), std::nullopt);
-  EXPECT_EQ(value_at(seed_table({1, 1, 2}, {1, 2, 3}), "x", 1.5), std::nullopt) << "cells of a grid are no curve";
+  EXPECT_EQ(value_at(table, "x", {1.0}), 1.0);
+  EXPECT_EQ(value_at(table, "x", {1.25}), 2.0);
+  EXPECT_EQ(value_at(table, "x_error", {3.0}), 9.0);
+  EXPECT_EQ(value_at(table, "x", {8.0}), 7.0);
+  EXPECT_EQ(value_at(seed_table({3 * 0.1, 0.4}, {2, 6}), "x", {0.3}), 2.0) << "0.1 + 0.1 + 0.1 is not 0.3 in binary";
+  for (const double absent : {0.5, 3.0, 6.0, 9.0}) EXPECT_EQ(value_at(table, "x", {absent}), std::nullopt) << absent;
+  EXPECT_EQ(value_at(table, "y", {1.0}), std::nullopt);
+  EXPECT_EQ(value_at(seed_table({1, 1, 2}, {1, 2, 3}), "x", {1.5}), std::nullopt) << "cells of a grid are no curve";
+}
+
+TEST(ValueAt, OfCellsIsThatOfTheCellThatContainsThePlace) {
+  // Three cells along x from 0 to 0.3, two along y from 0 to 2.
+  const Table cells = {.name = "cells",
+                       .columns = {{"x", "length", {0.05, 0.15, 0.25, 0.05, 0.15, 0.25}},
+                                   {"y", "length", {0.5, 0.5, 0.5, 1.5, 1.5, 1.5}},
+                                   {"density", "", {1, 2, 3, 4, 5, 6}}}};
+  const auto density = [&](double x, double y) { return value_at(cells, "density", {x, y}); };
+  EXPECT_EQ(density(0.01, 0.1), 1.0);
+  EXPECT_EQ(density(0.19, 0.9), 2.0);
+  EXPECT_EQ(density(0.25, 1.5), 6.0);
+  EXPECT_EQ(density(0.1, 1.0), 5.0) << "an edge belongs to the cell right of and above it";
+  EXPECT_EQ(density(0.0, 0.0), 1.0);
+  EXPECT_EQ(density(0.3, 2.0), 6.0) << "the edge of the last cell is its own";
+  for (const double outside : {-0.01, 0.31}) EXPECT_EQ(density(outside, 0.5), std::nullopt);
+  EXPECT_EQ(density(0.1, 2.1), std::nullopt);
+  EXPECT_EQ(value_at(cells, "density", {0.1}), std::nullopt);
+  EXPECT_THAT(key_columns(cells), ElementsAre("x", "y"));
+  const Table column = {.name = "cells", .columns = {{"x", "", {1, 1}}, {"y", "", {1, 3}}, {"density", "", {7, 8}}}};
+  EXPECT_EQ(value_at(column, "density", {0.5, 2.5}), 8.0) << "one cell alone is as wide as the box";
 }
 
 TEST(MeanOfTables, OfOtherLagsIsRefused) {

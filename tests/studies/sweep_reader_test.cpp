@@ -195,6 +195,22 @@ TEST_F(SweepReader, ATableHasFunctionsOfALagAtALag) {
   EXPECT_THAT(at("overlap.overlap@lag"), HasSubstr("behind @ there is to be a value of lag"));
 }
 
+TEST_F(SweepReader, ATableHasCellsByAPlaceInThem) {
+  const auto at = [&](const std::string& name, const std::string& more = "") {
+    return files_.refusal(scene_line + "table = [\"observables." + name + "\"]\n[set]\nrun.time = 4.0\n" +
+                          "observe = { fields = { cells = [4, 3] } }\n" + more);
+  };
+  EXPECT_EQ(at("fields.density@2.5,1"), "");
+  EXPECT_EQ(at("fields.stress_xy_error@0,0"), "");
+  EXPECT_EQ(at("fields_in_time.temperature@3,1,1"), "");
+  for (const char* wrong : {"@5", "@5,", "@1,2,3", "@1,two"})
+    EXPECT_THAT(at(std::string("fields.density") + wrong),
+                HasSubstr("behind @ there is to be a value of x,y, such as observables.fields.density@1.5,1.5"));
+  EXPECT_THAT(at("fields.density@2.5,99"), HasSubstr("no run has a row there; a place is in the box"));
+  EXPECT_EQ(at("fields.density@2.5,99", "box.boundary = \"walls\"\nwalls.top.velocity = 50.0\n"), "");
+  EXPECT_THAT(at("fields_in_time.density@4.5,1,1"), HasSubstr("and a time at most run.time"));
+}
+
 TEST_F(SweepReader, AColumnThatBeginsAsAnotherIsThatOne) {
   EXPECT_THAT(files_.refusal(scene_line + "table = [\"observables.intermediate_scattering.F_s@0.3\"]\n[set]\nrun.time = 4.0\n"
                                           "observe = { intermediate_scattering = true }\n"),

@@ -9,6 +9,8 @@
 #include "scene/known_keys.hpp"
 #include "scene/observables_known.hpp"
 #include "simulation/start.hpp"
+#include "studies/sweep/results.hpp"
+#include "studies/sweep/seed_tables.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,11 +18,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <regex>
 #include <span>
-#include <system_error>
+#include <sstream>
 
 namespace carom {
 
@@ -121,9 +122,11 @@ constexpr std::array<std::string_view, 7> usual = {"packing_fraction", "time",  
 
 constexpr std::string_view observables = "observables.";
 
-/// Those that measure functions of a lag have columns only once they have seen a pair of states, some after nine.
-constexpr std::array<std::string_view, 6> functions_of_lag = {
-    "mean_square_displacement", "intermediate_scattering", "overlap", "non_gaussian", "van_hove", "velocity_autocorrelation"};
+/// Those that measure functions of a lag have columns only once they have seen a pair of states, some after nine, and fields once
+/// they have seen one.
+constexpr std::array<std::string_view, 7> empty_at_first = {
+    "fields",   "mean_square_displacement", "intermediate_scattering", "overlap", "non_gaussian",
+    "van_hove", "velocity_autocorrelation"};
 
 std::optional<double> value_of(const Json& json) { return json.is_null() ? std::nullopt : std::optional(json.get<double>()); }
 
@@ -146,10 +149,15 @@ void collect_observables(const Json& all, std::vector<SummaryNumber>& numbers) {
     }
 }
 
-/// Disks at rest in the middle of the box: a state that reports can be made of, whatever acts.
+/// Disks at rest, spread over the box: a state that reports can be made of, whatever acts.
 State state_of_nothing(const Scene& scene, Eigen::Index disks) {
   State state;
-  state.positions = (0.5 * (scene.box.lower + scene.box.upper)).replicate(1, disks);
+  state.positions.resize(2, disks);
+  const auto side = static_cast<Eigen::Index>(std::ceil(std::sqrt(static_cast<double>(disks))));
+  for (Eigen::Index i = 0; i < disks; ++i) {
+    const Eigen::Vector2d share(static_cast<double>(i % side) + 0.5, static_cast<double>(i / side) + 0.5);
+    state.positions.col(i) = scene.box.lower + scene.box.lengths().cwiseProduct(share) / static_cast<double>(side);
+  }
   state.velocities = Eigen::Matrix2Xd::Zero(2, disks);
   state.images = Images::Zero(2, disks);
   state.spins = Eigen::VectorXd::Zero(disks);
@@ -158,10 +166,10 @@ State state_of_nothing(const Scene& scene, Eigen::Index disks) {
 }
 
 /// Hands the same state again and again to observables whose tables would have no columns without.
-void sample_functions_of_lag(ObservableGroup& group, State state) {
+void sample_those_empty_at_first(ObservableGroup& group, State state) {
   for (const auto& [step, due] : group.by_step())
     for (Observable* observable : due) {
-      if (std::find(functions_of_lag.begin(), functions_of_lag.end(), observable->name()) == functions_of_lag.end()) continue;
+      if (std::ranges::find(empty_at_first, observable->name()) == empty_at_first.end()) continue;
       for (int k = 0; k < 9; ++k) {
         state.time = k * step;
         observable->sample(state, Totals{});
@@ -205,18 +213,42 @@ std::vector<SummaryNumber> numbers_of(const Json& summary) {
   return numbers;
 }
 
+std::vector<std::string> split_at_commas(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream words(line);
+  for (std::string cell; std::getline(words, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
 std::optional<TableNumber> table_number(std::string_view name) {
   const std::size_t sign = name.rfind('@');
   if (!name.starts_with(observables) || sign == std::string_view::npos) return {};
-  const std::string_view middle = name.substr(observables.size(), sign - observables.size()), value = name.substr(sign + 1);
+  const std::string_view middle = name.substr(observables.size(), sign - observables.size());
   const std::size_t dot = middle.find('.');
-  double at = 0.0;
-  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), at);
-  if (dot == std::string_view::npos || value.empty() || error != std::errc() || end != value.data() + value.size() ||
-      !std::isfinite(at))
-    return {};
-  return TableNumber{std::string(middle.substr(0, dot)), std::string(middle.substr(dot + 1)), at};
+  if (dot == std::string_view::npos) return {};
+  TableNumber number{std::string(middle.substr(0, dot)), std::string(middle.substr(dot + 1)), {}};
+  for (const std::string& value : split_at_commas(std::string(name.substr(sign + 1)))) {
+    const std::optional<double> at = number_of(value);
+    if (!at || !std::isfinite(*at)) return {};
+    number.at.push_back(*at);
+  }
+  return number.at.empty() || name.ends_with(',') ? std::nullopt : std::optional(number);
 }
+
+namespace {
+
+/// Returns whether tables of the scene's runs may have a row where a column that says which row it is has the value `at`.
+bool may_reach(const Scene& scene, const std::string& column, double at) {
+  if (column == "lag" || column == "time") return !scene.run.time || at <= *scene.run.time;
+  if (column != "x" && column != "y") return true;
+  const Effects effects = detail::effects_of_whole_run(scene);
+  for (const char* moving : {"moving_walls", "oscillating_walls", "pistons"})
+    if (detail::effect_named(moving).acts(effects)) return true;
+  const int axis = column == "x" ? 0 : 1;
+  return at >= scene.box.lower[axis] && at <= scene.box.upper[axis];
+}
+
+}  // namespace
 
 bool has_number(const std::string& name, const Scene& scene, const std::vector<std::string>& numbers) {
   const std::optional<TableNumber> wanted = table_number(name);
@@ -224,8 +256,8 @@ bool has_number(const std::string& name, const Scene& scene, const std::vector<s
   const std::string form = fmt::format("{}{}.{}@", observables, wanted->table, wanted->column);
   const auto found = std::find_if(numbers.begin(), numbers.end(), [&](const std::string& one) { return one.starts_with(form); });
   if (found == numbers.end()) return false;
-  const bool is_lag = found->substr(form.size()) == "lag";
-  return !is_lag || !scene.run.time || wanted->at <= *scene.run.time;
+  return std::ranges::equal(split_at_commas(found->substr(form.size())), wanted->at,
+                            [&](const std::string& column, double at) { return may_reach(scene, column, at); });
 }
 
 bool is_usual_number(std::string_view name) {
@@ -245,14 +277,15 @@ std::vector<std::string> number_names(const Scene& given) {
   if (!scene.changes.empty()) report.of_effects.changes.emplace();
   ObservableGroup group(observed_run(scene, disks, 1.0));
   group.start(state);
-  sample_functions_of_lag(group, state);
+  sample_those_empty_at_first(group, state);
   report.observables = group.results(0.0, Totals{});
   std::vector<std::string> names;
   for (const SummaryNumber& number : numbers_of(Json::parse(summary_json(report, {})))) names.push_back(number.name);
   for (const Measurement& measured : report.observables)
     for (const Table& table : measured.tables)
       for (std::size_t c = 1; c < table.columns.size(); ++c)
-        names.push_back(fmt::format("{}{}.{}@{}", observables, table.name, table.columns[c].name, table.columns[0].name));
+        names.push_back(
+            fmt::format("{}{}.{}@{}", observables, table.name, table.columns[c].name, fmt::join(key_columns(table), ",")));
   return names;
 }
 
@@ -261,10 +294,16 @@ std::string fault_of_number_name(const std::string& name, const std::vector<std:
     const auto form = std::find_if(numbers.begin(), numbers.end(), [&](const std::string& number) {
       return number.size() > sign && number[sign] == '@' && number.compare(0, sign, name, 0, sign) == 0;
     });
-    if (form != numbers.end() && !table_number(name))
-      return fmt::format("behind @ there is to be a value of {}, such as {}1.5", form->substr(sign + 1),
-                         form->substr(0, sign + 1));
-    if (form != numbers.end()) return "no run is that long; a lag is at most run.time";
+    if (form != numbers.end()) {
+      const std::string columns = form->substr(sign + 1);
+      const std::size_t count = split_at_commas(columns).size();
+      const std::optional<TableNumber> wanted = table_number(name);
+      if (!wanted || wanted->at.size() != count)
+        return fmt::format("behind @ there is to be a value of {}, such as {}{}", columns, form->substr(0, sign + 1),
+                           fmt::join(std::vector<double>(count, 1.5), ","));
+      if (columns == "lag") return "no run is that long; a lag is at most run.time";
+      return "no run has a row there; a place is in the box, and a time at most run.time";
+    }
     const auto longer = std::find_if(numbers.begin(), numbers.end(), [&](const std::string& number) {
       return number.starts_with(name.substr(0, sign)) && number.find('@') != std::string::npos;
     });

@@ -31,18 +31,24 @@ struct SummaryNumber {
 /// within the run the name with "_error".
 [[nodiscard]] std::vector<SummaryNumber> numbers_of(const nlohmann::ordered_json& summary);
 
-/// A number out of a table of an observable: the value of a column where the first column has the value `at`.
+/// Returns the words of a line between its commas.
+[[nodiscard]] std::vector<std::string> split_at_commas(const std::string& line);
+
+/// A number out of a table of an observable: the value of a column where the first column has the value `at`, or in the cell of a
+/// grid where the first columns have the values `at`.
 struct TableNumber {
-  std::string table;   ///< "mean_square_displacement"
-  std::string column;  ///< "diffusion", "diffusion_error"
-  double at = 0.0;     ///< in the unit of the table's first column
+  std::string table;       ///< "mean_square_displacement"
+  std::string column;      ///< "diffusion", "diffusion_error"
+  std::vector<double> at;  ///< one or more, in the units of the table's first columns
 };
 
-/// Returns the parts of "observables.TABLE.COLUMN@VALUE"; nothing where the name is none of these or VALUE no finite number.
+/// Returns the parts of "observables.TABLE.COLUMN@VALUE" or "...@VALUE,VALUE"; nothing where the name is none of these or a VALUE
+/// no finite number.
 [[nodiscard]] std::optional<TableNumber> table_number(std::string_view name);
 
 /// Returns whether a run of the scene may have the number, with a value or null: it is one of `numbers`, which number_names()
-/// returned for this scene, or a column of one of their tables. A lag must not be longer than the run.
+/// returned for this scene, or a column of one of their tables. A lag must not be longer than the run, and the place of a cell
+/// must be in the box, unless its walls move.
 [[nodiscard]] bool has_number(const std::string& name, const Scene& scene, const std::vector<std::string>& numbers);
 
 /// Returns whether a sweep's table holds the number where nothing else is asked for.
@@ -50,7 +56,7 @@ struct TableNumber {
 
 /// Returns the names of all numbers that a run of the scene has in its summary, with a value or null; and after them
 /// "observables.TABLE.COLUMN@FIRST" for each column of the tables of its observables, where FIRST is the name of the table's
-/// first column. Nothing is drawn and nothing run.
+/// first column, or "x,y" where its rows are cells of a grid. Nothing is drawn and nothing run.
 [[nodiscard]] std::vector<std::string> number_names(const Scene& scene);
 
 /// Returns the end of a sentence that says why `name` is none of the numbers, and which there are.

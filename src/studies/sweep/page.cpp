@@ -13,7 +13,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -167,18 +166,12 @@ std::vector<Block> tables_of(const Sweep& sweep, const SweepResults& results) {
   return tables;
 }
 
-/// Returns whether the rows of a table are points of a curve: cells of a grid are not.
-bool is_curve(const Table& table) {
-  const std::vector<double>& x = table.columns.front().values;
-  return x.size() > 1 && std::adjacent_find(x.begin(), x.end(), std::greater_equal<>()) == x.end();
-}
-
 /// Returns plots of the columns with errors of every table, with a curve for each point.
 Section section_of_tables(const Sweep& sweep, const std::vector<SeedTable>& tables) {
   constexpr std::size_t most_plots = 40;
   std::vector<std::pair<std::string, Plot>> plots;  // by table and column
   for (const SeedTable& one : tables) {
-    if (!one.fault.empty() || !is_curve(one.table)) continue;
+    if (!one.fault.empty() || !is_curve(one.table) || one.table.columns.front().values.size() < 2) continue;
     const std::vector<Column>& columns = one.table.columns;
     for (std::size_t c = 1; c + 1 < columns.size(); ++c) {
       if (columns[c + 1].name != columns[c].name + "_error") continue;

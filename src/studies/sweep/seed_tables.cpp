@@ -2,6 +2,7 @@
 
 #include "io/observable_output.hpp"
 #include "observe/table_column.hpp"
+#include "studies/sweep/numbers.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -10,9 +11,11 @@
 #include <cmath>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <set>
+#include <span>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -25,19 +28,41 @@ namespace {
 
 constexpr std::string_view error_ending = "_error";
 
-std::vector<std::string> split_at_commas(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream words(line);
-  for (std::string cell; std::getline(words, cell, ',');) cells.push_back(cell);
-  return cells;
-}
-
 bool is_error_column(const Table& table, const Column& column) {
   return column.name.ends_with(error_ending) &&
          find_column(table, column.name.substr(0, column.name.size() - error_ending.size())) != nullptr;
 }
 
 bool same_number(double a, double b) { return std::isnan(a) ? std::isnan(b) : a == b || !differ(a, b); }
+
+/// Returns the middle of the cell that contains a place, of cells of one width whose middles are given; nothing beyond them. One
+/// cell alone is as wide as the box.
+std::optional<double> middle_of_cell(const std::vector<double>& middles, double place) {
+  constexpr double rounding = 1e-9;  // of a width: edges are no short numbers in binary
+  const std::set<double> distinct(middles.begin(), middles.end());
+  const auto count = static_cast<double>(distinct.size());
+  if (distinct.size() < 2) return distinct.empty() ? std::nullopt : std::optional(*distinct.begin());
+  const double width = (*distinct.rbegin() - *distinct.begin()) / (count - 1.0);
+  const double cells = (place - *distinct.begin()) / width + 0.5 + rounding;
+  if (cells < 0.0 || cells > count + 2.0 * rounding) return {};
+  return *std::next(distinct.begin(), static_cast<std::ptrdiff_t>(std::min(cells, count - 1.0)));
+}
+
+/// Returns the row of the cell that contains a place.
+std::optional<std::size_t> row_of_cell(const Table& cells, const std::vector<double>& place) {
+  std::vector<double> middle;
+  for (std::size_t c = 0; c < place.size(); ++c) {
+    const std::optional<double> found = middle_of_cell(cells.columns[c].values, place[c]);
+    if (!found) return {};
+    middle.push_back(*found);
+  }
+  for (std::size_t r = 0; r < cells.columns.front().values.size(); ++r) {
+    bool is_there = true;
+    for (std::size_t c = 0; c < middle.size(); ++c) is_there = is_there && cells.columns[c].values[r] == middle[c];
+    if (is_there) return r;
+  }
+  return {};
+}
 
 }  // namespace
 
@@ -68,21 +93,46 @@ Table read_observed_table(const fs::path& path) {
   return table;
 }
 
-std::optional<double> value_at(const Table& table, const std::string& column, double at) {
-  const Column* const values = find_column(table, column);
+bool is_curve(const Table& table) {
   const std::vector<double>& x = table.columns.front().values;
-  if (values == nullptr || x.empty() || std::adjacent_find(x.begin(), x.end(), std::greater_equal<>()) != x.end()) return {};
+  return !x.empty() && std::adjacent_find(x.begin(), x.end(), std::greater_equal<>()) == x.end();
+}
+
+std::vector<std::string> key_columns(const Table& table) {
+  std::vector<std::string> names = {table.columns.front().name};
+  if (is_curve(table)) return names;
+  for (const Column& column : std::span(table.columns).subspan(1)) {
+    if (column.name != "x" && column.name != "y") break;
+    names.push_back(column.name);
+  }
+  return names;
+}
+
+namespace {
+
+std::optional<double> value_on_curve(const std::vector<double>& x, const std::vector<double>& y, double at) {
   // A step that is no short number in binary may put the row that was meant a rounding beside it.
   const auto is_near = [&](double other) { return !differ(other, at); };
   const auto found = std::find_if(x.begin(), x.end(), [&](double other) { return other >= at || is_near(other); });
   if (found == x.end() || (found == x.begin() && !is_near(*found))) return {};
   const auto k = static_cast<std::size_t>(found - x.begin());
-  double value = values->values[k];
-  if (!is_near(x[k])) {
-    const double share = (at - x[k - 1]) / (x[k] - x[k - 1]);
-    value = (1.0 - share) * values->values[k - 1] + share * value;
+  if (is_near(x[k])) return y[k];
+  const double share = (at - x[k - 1]) / (x[k] - x[k - 1]);
+  return (1.0 - share) * y[k - 1] + share * y[k];
+}
+
+}  // namespace
+
+std::optional<double> value_at(const Table& table, const std::string& column, const std::vector<double>& at) {
+  const Column* const values = find_column(table, column);
+  if (values == nullptr || at.empty() || at.size() >= table.columns.size()) return {};
+  std::optional<double> value;
+  if (at.size() > 1) {
+    if (const std::optional<std::size_t> row = row_of_cell(table, at)) value = values->values[*row];
+  } else if (is_curve(table)) {
+    value = value_on_curve(table.columns.front().values, values->values, at.front());
   }
-  return std::isfinite(value) ? std::optional(value) : std::nullopt;
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 Table mean_of_tables(const std::vector<Table>& tables) {

@@ -17,10 +17,17 @@ namespace carom {
 /// Returns the table in a file observe_NAME.csv of a run. Throws std::runtime_error where it is none.
 [[nodiscard]] Table read_observed_table(const std::filesystem::path& path);
 
-/// Returns the number in `column` of a table where the first column has the value `at`: a straight line between the two rows
-/// around it. That of a column of errors is an upper bound, because errors of neighbouring rows are correlated. Nothing where the
-/// table has no such column, ends before, does not increase, or has no number there.
-[[nodiscard]] std::optional<double> value_at(const Table& table, const std::string& column, double at);
+/// Returns whether the rows of a table are points of a curve, in the order of its first column: cells of a grid are not.
+[[nodiscard]] bool is_curve(const Table& table);
+
+/// Returns the names of the columns that say which row of a table it is: the first, and of cells of a grid "x" and "y" after it.
+[[nodiscard]] std::vector<std::string> key_columns(const Table& table);
+
+/// Returns the number in `column` of a table where the first columns have the values `at`. On a curve that is on a straight line
+/// between the two rows around one value; that of a column of errors is an upper bound, because errors of neighbouring rows are
+/// correlated. Of cells it is the number of the cell that contains the place; an edge belongs to the cell right of or above it.
+/// Nothing where the table has no such column, ends before, is no curve for one value, or has no number there.
+[[nodiscard]] std::optional<double> value_at(const Table& table, const std::string& column, const std::vector<double>& at);
 
 /// Returns the table of means over tables of the same columns, row by row. Columns that come with errors, and others that differ,
 /// have the standard error of independent seeds in `NAME_error`; NaN is left out. Rows are those that all have. Throws

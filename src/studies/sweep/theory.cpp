@@ -49,10 +49,11 @@ std::optional<double> value_on(const TheoryCurve& curve, double x) {
 
 /// Returns what a theory says of a number in a table.
 std::optional<Expected> value_in(const RunTheory& theory, const TableNumber& number) {
+  if (number.at.size() != 1) return {};
   // Of a curve only the value at one place is wanted; those that are drawn over the whole of a table end there.
-  const Table table{.name = number.table, .columns = {{"lag", "", {number.at}}, {number.column, "", {0.0}}}};
+  const Table table{.name = number.table, .columns = {{"lag", "", number.at}, {number.column, "", {0.0}}}};
   for (const TheoryCurve& curve : theory.curves(table, number.column))
-    if (const std::optional<double> value = value_on(curve, number.at)) return Expected{*value, curve.name};
+    if (const std::optional<double> value = value_on(curve, number.at.front())) return Expected{*value, curve.name};
   if (number.column != "diffusion" && number.column != "green_kubo") return {};  // others come to their mark somewhere else
   for (const TheoryMark& mark : theory.marks(table, number.column))
     if (!mark.on_first_column) return Expected{mark.value, mark.label};
