@@ -2,6 +2,7 @@
 
 #include "pages/field_maps.hpp"
 
+#include "core/all_equal.hpp"
 #include "observe/table_column.hpp"
 #include "pages/palette.hpp"
 #include "text/numbers.hpp"
@@ -118,6 +119,14 @@ std::optional<std::string> field_maps(const Table& fields) {
          stops + ")}@media(prefers-color-scheme:dark){body{background:#12161c;color:#e6eaf0}}\n</style></head><body>\n" +
          map_of(*cells, "Density", unit("density"), *density, u, v, "flow") +
          map_of(*cells, "Temperature", unit("temperature"), *kT, qx, qy, "heat flux") + map_of_pressure + "\n</body></html>\n";
+}
+
+std::optional<Table> profile_of_fields(const Table& fields) {
+  const bool along_x = !all_equal(fields.columns[0].values), along_y = !all_equal(fields.columns[1].values);
+  if (along_x && along_y) return {};
+  Table profile = fields;
+  profile.columns.erase(profile.columns.begin() + (along_x ? 1 : 0));
+  return profile;
 }
 
 }  // namespace carom

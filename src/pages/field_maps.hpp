@@ -13,4 +13,7 @@ namespace carom {
 /// plot.
 [[nodiscard]] std::optional<std::string> field_maps(const Table& fields);
 
+/// Returns the table `fields` of a line of cells as a curve along the axis that has several; absent where both have.
+[[nodiscard]] std::optional<Table> profile_of_fields(const Table& fields);
+
 }  // namespace carom

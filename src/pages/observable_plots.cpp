@@ -1,6 +1,7 @@
 #include "pages/report_parts.hpp"
 
 #include "observe/table_column.hpp"
+#include "pages/field_maps.hpp"
 #include "text/numbers.hpp"
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string_view>
 
 namespace carom {
@@ -357,15 +359,8 @@ Plot plain_plot_of(const Table& table) {
 
 namespace {
 
-/// Returns fields as a profile along the axis that has several cells; nothing where both have, which field_maps() draws.
-std::vector<Plot> profile_of(const Table& fields) {
-  const auto varies = [&](std::size_t c) {
-    const std::vector<double>& values = fields.columns[c].values;
-    return std::any_of(values.begin(), values.end(), [&](double value) { return value != values.front(); });
-  };
-  if (varies(0) && varies(1)) return {};
-  Table profile = fields;
-  profile.columns.erase(profile.columns.begin() + (varies(0) ? 1 : 0));
+/// Returns the plots of a line of cells, a field each.
+std::vector<Plot> plots_of_profile(const Table& profile) {
   std::vector<Plot> plots;
   for (std::size_t c = 1; c < profile.columns.size(); ++c) {
     if (is_error(profile.columns[c]) || profile.columns[c].name == "area") continue;
@@ -389,7 +384,10 @@ std::vector<Plot> plots_of(const Table& table, const RunTheory& theory) {
   std::vector<Plot> plots;
   if (table.name == "fields_in_time") return plots;
   if (table.columns.size() < 2 || table.columns.front().values.empty()) return plots;
-  if (table.name == "fields") return profile_of(table);
+  if (table.name == "fields") {
+    const std::optional<Table> profile = profile_of_fields(table);
+    return profile ? plots_of_profile(*profile) : plots;
+  }
   for (const Frame& frame : frames)
     if (table.name == frame.table) plots.push_back(plot_of(frame, table, theory));
   if (plots.empty()) plots.push_back(plain_plot_of(table));

@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <variant>
 
@@ -113,6 +114,45 @@ TEST(SeedTables, OfAPointAreThoseOfItsRuns) {
       if (const Plot* plot = std::get_if<Plot>(&block); plot != nullptr && plot->title == "msd: msd")
         drawn = plot->series.size() == 1;
   EXPECT_TRUE(drawn);
+}
+
+/// Averages of fields in so many cells, of which each is the number of the cell.
+SeedTable fields_of(const std::vector<double>& x, const std::vector<double>& y) {
+  SeedTable fields{.seeds = 2, .table = {.name = "fields", .columns = {{"x", "length", x}, {"y", "length", y}}}};
+  std::vector<double> numbers(x.size());
+  std::iota(numbers.begin(), numbers.end(), 0.0);
+  for (const char* name :
+       {"density", "velocity_x", "velocity_y", "temperature", "heat_flux_x", "heat_flux_y", "stress_xx", "stress_yy"}) {
+    fields.table.columns.push_back({name, "", numbers});
+    fields.table.columns.push_back({std::string(name) + "_error", "", std::vector<double>(x.size(), 0.5)});
+  }
+  return fields;
+}
+
+Section section_of_tables(const SeedTable& table) {
+  const SweepFiles files;
+  const Sweep sweep = files.load("scene = \"gas.toml\"\nseeds = 2\n");
+  SweepResults results;
+  results.runs.resize(sweep.run_count());
+  return sweep_page(sweep, results, {table}).sections.front();
+}
+
+TEST(SeedTables, FieldsOnAGridAreMaps) {
+  const Section section = section_of_tables(fields_of({1, 3, 1, 3}, {2, 2, 6, 6}));
+  ASSERT_EQ(section.blocks.size(), 2U);
+  EXPECT_EQ(std::get<Paragraph>(section.blocks[0]).text, "`fields` of scene, means over seeds:");
+  EXPECT_THAT(std::get<EmbeddedPage>(section.blocks[1]).html, HasSubstr("aria-label=\"Temperature\""));
+}
+
+TEST(SeedTables, FieldsOnALineAreProfilesAlongIt) {
+  const Section section = section_of_tables(fields_of({1, 1, 1}, {2, 4, 6}));
+  ASSERT_EQ(section.blocks.size(), 8U) << "a plot for each field";
+  const Plot& plot = std::get<Plot>(section.blocks[0]);
+  EXPECT_EQ(plot.title, "fields: density");
+  EXPECT_THAT(plot.x.title, HasSubstr("y (length"));
+  ASSERT_EQ(plot.series.size(), 1U);
+  EXPECT_THAT(plot.series[0].x, ElementsAre(2, 4, 6));
+  EXPECT_THAT(plot.series[0].y_high, ElementsAre(0.5, 1.5, 2.5));
 }
 
 }  // namespace

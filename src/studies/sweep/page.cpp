@@ -1,5 +1,6 @@
 #include "studies/sweep/products.hpp"
 
+#include "pages/field_maps.hpp"
 #include "studies/sweep/numbers.hpp"
 #include "studies/sweep/results.hpp"
 #include "studies/sweep/seed_tables.hpp"
@@ -13,6 +14,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <string>
@@ -166,42 +168,97 @@ std::vector<Block> tables_of(const Sweep& sweep, const SweepResults& results) {
   return tables;
 }
 
-/// Returns plots of the columns with errors of every table, with a curve for each point.
-Section section_of_tables(const Sweep& sweep, const std::vector<SeedTable>& tables) {
+/// A line of theory, and which point of the sweep it belongs to.
+struct LineOfPoint {
+  std::size_t place = 0;  ///< among the points in the plot
+  TheoryCurve curve;
+};
+
+/// Columns of tables of one name, a series for each point.
+struct PlotOfColumn {
+  std::string key;  ///< table and column
+  Plot plot;
+  std::vector<LineOfPoint> lines = {};
+};
+
+Series series_of(const Column& x, const Column& y, const Column& error, std::size_t place, const std::string& name) {
+  Series series{.name = name,
+                .x = x.values,
+                .y = y.values,
+                .style = Style::band,
+                .group = static_cast<int>(place),
+                .visible = place < most_visible};
+  for (std::size_t r = 0; r < series.y.size(); ++r) {
+    series.y_low.push_back(series.y[r] - error.values[r]);
+    series.y_high.push_back(series.y[r] + error.values[r]);
+  }
+  return series;
+}
+
+/// Adds the lines of theory: one where it is the same for all points, else one for each in its colour.
+void add_lines(PlotOfColumn& one) {
+  std::vector<Series>& series = one.plot.series;
+  const std::size_t points = series.size();
+  for (LineOfPoint& line : one.lines) {
+    const auto is_same = [&](const LineOfPoint& other) { return same_curve(other.curve, line.curve); };
+    const auto same = static_cast<std::size_t>(std::ranges::count_if(one.lines, is_same));
+    const bool of_all = same == points, is_first = &line == &*std::ranges::find_if(one.lines, is_same);
+    if (of_all && !is_first) continue;
+    series.push_back({.name = line.curve.name + (of_all ? "" : ", " + series[line.place].name),
+                      .x = line.curve.x,
+                      .y = line.curve.y,
+                      .style = line.curve.dashed || !of_all ? Style::dashed : Style::line,
+                      .group = of_all ? line_of_theory : static_cast<int>(line.place),
+                      .visible = line.place < most_visible});
+  }
+}
+
+/// Returns plots of the columns with errors of every curve, with a series for each point and theory beside it, and the maps of
+/// fields on grids.
+Section section_of_tables(const Sweep& sweep, const std::vector<SeedTable>& tables, SweepTheory& theory) {
   constexpr std::size_t most_plots = 40;
-  std::vector<std::pair<std::string, Plot>> plots;  // by table and column
+  std::vector<PlotOfColumn> plots;
+  std::vector<Block> maps;
   for (const SeedTable& one : tables) {
-    if (!one.fault.empty() || !is_curve(one.table) || one.table.columns.front().values.size() < 2) continue;
-    const std::vector<Column>& columns = one.table.columns;
+    if (!one.fault.empty()) continue;
+    const std::string& point = sweep.points[one.point].name;
+    const bool is_fields = one.table.name == "fields";
+    const std::optional<Table> profile = is_fields ? profile_of_fields(one.table) : std::nullopt;
+    if (is_fields && !profile && maps.size() < 2 * most_visible)
+      if (std::optional<std::string> page = field_maps(one.table)) {
+        maps.emplace_back(Paragraph{fmt::format("`fields` of {}, means over seeds:", point)});
+        maps.emplace_back(EmbeddedPage{fmt::format("Maps of the fields of {}", point), std::move(*page)});
+      }
+    const Table& table = profile ? *profile : one.table;
+    if (!is_curve(table) || table.columns.front().values.size() < 2) continue;
+    const std::vector<Column>& columns = table.columns;
     for (std::size_t c = 1; c + 1 < columns.size(); ++c) {
       if (columns[c + 1].name != columns[c].name + "_error") continue;
-      const std::string key = one.table.name + " " + columns[c].name;
-      auto plot = std::find_if(plots.begin(), plots.end(), [&](const auto& other) { return other.first == key; });
+      const std::string key = table.name + " " + columns[c].name;
+      auto plot = std::ranges::find(plots, key, &PlotOfColumn::key);
       if (plot == plots.end()) {
         if (plots.size() == most_plots) continue;
         plots.push_back({key,
                          {.id = fmt::format("table-{}", plots.size()),
-                          .title = fmt::format("{}: {}", one.table.name, columns[c].name),
+                          .title = fmt::format("{}: {}", table.name, columns[c].name),
                           .caption = "Means over seeds; bars are their standard errors.",
                           .x = {.title = with_unit(columns[0].name, columns[0].unit),
                                 .log = columns[0].name == "lag" && columns[0].values[0] > 0.0},
                           .y = {.title = with_unit(columns[c].name, columns[c].unit)}}});
         plot = plots.end() - 1;
       }
-      const auto place = plot->second.series.size();
-      Series series{.name = sweep.points[one.point].name, .x = columns[0].values, .y = columns[c].values};
-      series.style = Style::band;
-      series.group = static_cast<int>(place);
-      series.visible = place < most_visible;
-      for (std::size_t r = 0; r < series.y.size(); ++r) {
-        series.y_low.push_back(series.y[r] - columns[c + 1].values[r]);
-        series.y_high.push_back(series.y[r] + columns[c + 1].values[r]);
-      }
-      plot->second.series.push_back(std::move(series));
+      const std::size_t place = plot->plot.series.size();
+      plot->plot.series.push_back(series_of(columns[0], columns[c], columns[c + 1], place, point));
+      for (TheoryCurve& curve : theory.curves(one.point, table, columns[c].name))
+        plot->lines.push_back({place, std::move(curve)});
     }
   }
   Section section{.heading = "Tables of observables", .blocks = {}};
-  for (auto& [key, plot] : plots) section.blocks.emplace_back(std::move(plot));
+  for (PlotOfColumn& one : plots) {
+    add_lines(one);
+    section.blocks.emplace_back(std::move(one.plot));
+  }
+  std::ranges::move(maps, std::back_inserter(section.blocks));
   return section;
 }
 
@@ -234,7 +291,7 @@ Page sweep_page(const Sweep& sweep, const SweepResults& results, const std::vect
       .lead = lead_of(sweep, results)};
   constexpr std::size_t most_plotted = 40;
   std::size_t plotted = 0;
-  const SweepTheory theory(sweep, results);
+  SweepTheory theory(sweep, results);
   for (std::size_t k = 0; k < results.numbers.size() && plotted < most_plotted; ++k) {
     if (!varies(results, k)) continue;
     Section section{.heading = results.numbers[k], .blocks = {}};
@@ -243,7 +300,8 @@ Page sweep_page(const Sweep& sweep, const SweepResults& results, const std::vect
     page.sections.push_back(std::move(section));
     ++plotted;
   }
-  if (Section section = section_of_tables(sweep, tables); !section.blocks.empty()) page.sections.push_back(std::move(section));
+  if (Section section = section_of_tables(sweep, tables, theory); !section.blocks.empty())
+    page.sections.push_back(std::move(section));
   page.sections.push_back({"All numbers", tables_of(sweep, results)});
   if (results.count(RunState::failed) > 0) page.sections.push_back({"Failed runs", {failures_of(sweep, results)}});
   page.sections.push_back({"Sweep and scene", {Listing{"The sweep", sweep.text}, Listing{"The scene", sweep.scene_text}}});

@@ -60,10 +60,16 @@ std::optional<Expected> value_in(const RunTheory& theory, const TableNumber& num
   return {};
 }
 
+constexpr std::size_t most_points = 1000;
+
 }  // namespace
 
-SweepTheory::SweepTheory(const Sweep& sweep, const SweepResults& results) {
-  constexpr std::size_t most_points = 1000;
+bool same_curve(const TheoryCurve& one, const TheoryCurve& other) {
+  const auto same = [](double a, double b) { return a == b || !differ(a, b); };
+  return one.name == other.name && std::ranges::equal(one.x, other.x, same) && std::ranges::equal(one.y, other.y, same);
+}
+
+SweepTheory::SweepTheory(const Sweep& sweep, const SweepResults& results) : sweep_(sweep), results_(results) {
   if (sweep.points.size() > most_points || results.temperatures.size() < sweep.points.size()) return;
   for (std::size_t point = 0; point < sweep.points.size(); ++point) {
     points_.emplace_back();
@@ -82,6 +88,32 @@ std::optional<Expected> SweepTheory::of(std::size_t point, const std::string& nu
   const std::string rest = number.starts_with(observables) ? number.substr(observables.size()) : number;
   const std::size_t dot = rest.find('.');
   return dot == std::string::npos ? std::nullopt : theory.of(rest.substr(0, dot), rest.substr(dot + 1));
+}
+
+const std::vector<std::unique_ptr<SweepTheory::Point>>& SweepTheory::runs_of(std::size_t point) {
+  const auto [entry, fresh] = runs_.try_emplace(point);
+  const std::size_t seeds = sweep_.seeds.size();
+  if (fresh && sweep_.run_count() <= most_points)
+    for (std::size_t run = point * seeds; run < (point + 1) * seeds; ++run)
+      if (const std::optional<double> kT = results_.runs[run].temperature)
+        entry->second.push_back(std::make_unique<Point>(sweep_.scene_of(run), *kT));
+  return entry->second;
+}
+
+std::vector<TheoryCurve> SweepTheory::curves(std::size_t point, const Table& table, const std::string& column) {
+  std::optional<std::vector<TheoryCurve>> first;
+  for (const std::unique_ptr<Point>& run : runs_of(point)) {
+    std::vector<TheoryCurve> curves = run->theory.curves(table, column);
+    const std::vector<double>& x = table.columns.front().values;
+    for (const TheoryMark& mark : run->theory.marks(table, column))
+      if (!mark.on_first_column)
+        curves.push_back({.name = mark.label, .dashed = true, .x = {x.front(), x.back()}, .y = {mark.value, mark.value}});
+    if (!first)
+      first = std::move(curves);
+    else if (!std::ranges::equal(*first, curves, same_curve))
+      return {};
+  }
+  return first.value_or(std::vector<TheoryCurve>());
 }
 
 }  // namespace carom
