@@ -233,6 +233,18 @@ TEST(Circle, ItStaysWhereOtherEffectsChange) {
   EXPECT_THAT(simulation.check_invariants(1e-12), testing::IsEmpty());
 }
 
+TEST(Circle, FarFromTheOriginDisksAreInsideToTheRoundingOfTheirCoordinates) {
+  Scene scene = gas_in_circle(10, 0.25);
+  put_in_circle(scene.box, scene.effects, {{333333.3, -285714.2}, 4.0});
+  for (const char* engine : {"general", "textbook"}) {
+    Simulation simulation = make_simulation(scene, engine);
+    for (std::uint64_t events = 1; events <= 300; ++events) {
+      simulation.run_until(1000.0, {.events = events});
+      ASSERT_THAT(simulation.check_invariants(), testing::IsEmpty()) << engine << " after event " << events;
+    }
+  }
+}
+
 TEST(Circle, BothPartsMustDescribeIt) {
   Scene scene = disk_in_circle(0.0);
   scene.effects.circle.reset();
