@@ -84,7 +84,7 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   }
   /// Whether the domain has come to an event that it cannot process alone, or can go no further, or has run far more events than
   /// any window is to hold: disks that collide without end are found by the whole engine, which also looks at limits between.
-  [[nodiscard]] bool stopped() const { return stopped_ || stall_.jammed() || crowded_ || overrun(); }
+  [[nodiscard]] bool stopped() const { return stopped_ || stall_.jammed() || crowded_; }
 
   /// The parts of domains that copy disks of this one, or have disks that this one copies.
   [[nodiscard]] const std::vector<std::size_t>& neighbours() const { return neighbours_; }
@@ -193,7 +193,13 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   [[nodiscard]] Mark& mark(std::int32_t i) { return marks_[static_cast<std::size_t>(i)]; }
   [[nodiscard]] const Mark& mark(std::int32_t i) const { return marks_[static_cast<std::size_t>(i)]; }
   [[nodiscard]] bool empty(std::int32_t i) const { return mark(i).role == Role::empty; }
-  [[nodiscard]] bool overrun() const { return events_ + copied_events_ > most_events_; }
+  /// Counts an event of a disk at home or of a copy. After far too many for a window the domain has stopped, whatever limit comes
+  /// next.
+  void count_event(bool at_home) {
+    ++(at_home ? events_ : copied_events_);
+    if (events_ + copied_events_ > most_events_) [[unlikely]]
+      stopped_ = true;
+  }
   void limit_events() { most_events_ = 64 * (homes_ + halo_.size()) + 4096; }
   void remember(std::int32_t i, double time) {
     std::uint64_t& history = mark(i).history;

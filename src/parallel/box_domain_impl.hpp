@@ -129,7 +129,7 @@ bool BoxDomain<Impact, Layout, World>::run_next(double end) {
   const std::uint32_t stamp = stamp_;
   const Mark& its = mark(i);
   const bool at_home = its.role == Role::home;
-  ++(at_home ? events_ : copied_events_);
+  count_event(at_home);
   if (at_home) [[likely]]
     this->step(i, time);
   else
@@ -153,7 +153,7 @@ void BoxDomain<Impact, Layout, World>::redraw_next() {
     if (i < 0 || empty(i)) continue;
     now_ = std::max(now_, time);
     const bool at_home = mark(i).role == Role::home;
-    ++(at_home ? events_ : copied_events_);
+    count_event(at_home);
     const double gained = this->redraw(i, *redraws_, due_[redrawn_]);
     remember(i, time);
     if (at_home) redraw_energy_.add(gained);

@@ -68,6 +68,20 @@ TEST(Threads, GiveTheBitsOfOneWhereCollisionsLoseEnergy) {
   expect_same_runs(scene, {.domains = 4}, 20.0, 4);
 }
 
+/// A disk that a wall leaves no speed, and that weight presses against it, hits it again and again at one instant: far more often
+/// in a window than a domain lets happen, and less often than time is taken to stand still after.
+TEST(Threads, CollapseWhereOneDoes) {
+  Scene scene = lean_gas(40, 0.2, Boundary::walls);
+  scene.effects.walls[1].restitution = 0.0;
+  scene.effects.gravity = Gravity{{0.5, 0.0}};
+  Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+  shared.set_threads({.threads = 2, .domains = 2});
+  EXPECT_EQ(alone.run_until(20.0), StopReason::collapsed);
+  EXPECT_EQ(shared.run_until(20.0), StopReason::collapsed);
+  expect_same(alone, shared, "collapsed");
+  EXPECT_GT(shared.thread_counts().windows_redone, 0U);
+}
+
 TEST(Threads, GiveTheBitsOfOneForAGasInACorner) {
   Scene scene = lean_gas(3000, 0.5, Boundary::walls);
   scene.species[0].positions = ListedPositions{};
