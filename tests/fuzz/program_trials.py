@@ -210,7 +210,7 @@ def whole_file(trial, file):
                                ("obstacles", partner <= -1000, counted.get("obstacle", 0))):
         count = count if summary.get("measured", True) else 0  # the log is that of the measured run
         expect(int(which.sum()) == count, f"{int(which.sum())} events with {name} in the log, {count} in the summary")
-    expect((file["events/disk"][()] < np.where(partner < 0, 2**31, partner)).all(), "a pair whose lower id is not first")
+    expect((file["events/disk"][()] < np.where(partner < 0, np.int64(2**31), partner)).all(), "a pair whose lower id is not first")
     run = scene.table("run")
     if summary["stopped"] == "time":
         expect(summary["time"] == scene.number(run["time"]), f"ended at {summary['time']}")
