@@ -18,6 +18,7 @@ using detail::number_text;
 using testing_support::any_double;
 using testing_support::changed;
 using testing_support::first_difference;
+using testing_support::moderate_double;
 using testing_support::moderate_positive_double;
 using testing_support::pair_text;
 using testing_support::unit_interval;
@@ -199,18 +200,18 @@ class SceneMaker {
       case 0:
         return "\"rest\"";
       case 1:
-        return "{ uniform = " + number_text(std::abs(any_double())) + " }";
+        return "{ uniform = " + number_text(std::abs(moderate_double())) + " }";
       case 2:
-        return "{ temperature = " + number_text(std::abs(any_double())) + " }";
+        return "{ temperature = " + number_text(std::abs(moderate_double())) + " }";
       case 3:
-        return "{ speed = " + number_text(std::abs(any_double())) + " }";
+        return "{ speed = " + number_text(std::abs(moderate_double())) + " }";
       default:
         break;
     }
     std::string list;
     for (int i = 0; i < count; ++i) {
-      const double vx = any_double();
-      list += (i == 0 ? "" : ", ") + pair_text(vx, any_double());
+      const double vx = moderate_double();
+      list += (i == 0 ? "" : ", ") + pair_text(vx, moderate_double());
     }
     return "[" + list + "]";
   }
