@@ -372,7 +372,8 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
       for (std::size_t f = 0; f < without.size(); ++f)
         found.variance[f] += (without[f] - found.mean[f]) * (without[f] - found.mean[f]);
     }
-    const double count = static_cast<double>((end - begin) / length);
+    const std::size_t left_out = (end - begin) / length;  // one at a time
+    const double count = static_cast<double>(left_out);
     for (double& one : found.variance) one *= (count - 1.0) / count;
     return found;
   }

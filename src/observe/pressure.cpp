@@ -40,7 +40,8 @@ std::optional<double> BlockedRate::standard_error() const {
 }
 
 double BlockedRate::error_of_increase(std::size_t begin, std::size_t length, const Block& all) const {
-  const double mean = all.increase / all.duration, n = static_cast<double>((blocks_.size() - begin) / length);
+  const std::size_t joined_blocks = (blocks_.size() - begin) / length;
+  const double mean = all.increase / all.duration, n = static_cast<double>(joined_blocks);
   double squares = 0.0;
   for (std::size_t b = begin; b < blocks_.size(); b += length) {
     Block joined{0.0, 0.0};

@@ -155,7 +155,8 @@ State state_of_nothing(const Scene& scene, Eigen::Index disks) {
   state.positions.resize(2, disks);
   const auto side = static_cast<Eigen::Index>(std::ceil(std::sqrt(static_cast<double>(disks))));
   for (Eigen::Index i = 0; i < disks; ++i) {
-    const Eigen::Vector2d share(static_cast<double>(i % side) + 0.5, static_cast<double>(i / side) + 0.5);
+    const auto row = i / side, column = i % side;
+    const Eigen::Vector2d share(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
     state.positions.col(i) = scene.box.lower + scene.box.lengths().cwiseProduct(share) / static_cast<double>(side);
   }
   state.velocities = Eigen::Matrix2Xd::Zero(2, disks);
