@@ -103,8 +103,8 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   void read_plans(std::span<const Message> messages);
   [[nodiscard]] const Verdict& end_reading();
 
-  /// Records the collisions of disks at home from now on for take_collisions(), with slots of the whole engine, and all their
-  /// events for take_events().
+  /// Records the collisions of disks at home from now on for collisions(), with slots of the whole engine, and all their events
+  /// for logged(). A collision of disks that are at home in two domains is recorded in both.
   void record(bool collisions, bool events, std::span<const std::int32_t> slot_of_id);
   /// Returns the collisions recorded since clear_records(), in order of time.
   [[nodiscard]] const std::vector<CollisionRecord>& collisions() {
@@ -214,7 +214,7 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
     return redrawn_ + 1 < due_.size() && due_[redrawn_ + 1].number == due_[redrawn_].number;
   }
   [[gnu::noinline]] void prefetch_span(std::int64_t span) const;
-  [[gnu::noinline]] void step_copy(std::int32_t i, double time);
+  [[gnu::noinline]] void step_copy(std::int32_t i, double time, bool with_home);
   std::int32_t slot_for(std::int32_t disk);
   void recycle_slots();
   void leave(std::int32_t i);

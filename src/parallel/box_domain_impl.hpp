@@ -133,7 +133,7 @@ bool BoxDomain<Impact, Layout, World>::run_next(double end) {
   if (at_home) [[likely]]
     this->step(i, time);
   else
-    step_copy(i, time);
+    step_copy(i, time, !by_edge && partner >= 0 && mark(partner).role == Role::home);
   remember(i, time);
   if (!by_edge && stamp_ != stamp) remember(partner, time);
   if (leaves && !(at_home && its.copied_by == 0 && parts_.deep_inside(lists_.centre(i), me_))) {
@@ -185,13 +185,13 @@ void BoxDomain<Impact, Layout, World>::prefetch_span(std::int64_t span) const {
   this->prefetch_calendar(span);
 }
 
-/// Processes an event that is counted elsewhere.
+/// Processes an event that is counted elsewhere, and recorded here too where it is `with_home`, of a disk at home with a copy.
 template <class Impact, class Layout, class World>
-void BoxDomain<Impact, Layout, World>::step_copy(std::int32_t i, double time) {
+void BoxDomain<Impact, Layout, World>::step_copy(std::int32_t i, double time, bool with_home) {
   const TuningCounters before = tuning_.counters();
   const std::uint64_t changes = lists_.changes();
   counted_ = &ghosts_;
-  recorder_.pause(true);
+  recorder_.pause(!with_home);
   this->step(i, time);
   recorder_.pause(false);
   counted_ = &totals_;

@@ -533,6 +533,23 @@ void Domains<Impact, Layout, World>::begin_epoch_next() {
   alone_until_ = whole_.epoch_.plus(now_);
 }
 
+namespace detail {
+
+/// Whether two domains have recorded the same collision.
+inline bool is_same(const CollisionRecord& a, const CollisionRecord& b) {
+  const auto equal = [](const auto& one, const auto& other) {
+    return std::equal(std::begin(one), std::end(one), std::begin(other));
+  };
+  return a.time == b.time && a.slot_i == b.slot_i && a.slot_j == b.slot_j && equal(a.before_i, b.before_i) &&
+         equal(a.before_j, b.before_j) && equal(a.after_i, b.after_i) && equal(a.after_j, b.after_j);
+}
+inline bool is_same(const Event& a, const Event& b) {
+  return a.time == b.time && a.time_remainder == b.time_remainder && a.disk == b.disk && a.partner == b.partner &&
+         a.velocity == b.velocity && a.partner_velocity == b.partner_velocity;
+}
+
+}  // namespace detail
+
 /// Gives the records of all domains to the recorder of the whole engine, in order of time.
 template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::hand_over_records() {
@@ -551,16 +568,34 @@ void Domains<Impact, Layout, World>::hand_over_records() {
   const auto collisions_of = [this](std::size_t d) -> const std::vector<CollisionRecord>& {
     return is_here(d) ? domains_[d]->collisions() : collisions_elsewhere_[d];
   };
-  /// Calls take(one) for the entries of all lists in order, each of which is in order by itself.
+  /// Calls take(one) once for the entries of all lists, each of which is in order by itself. An entry of two lists has its turn
+  /// when it is the next of both: at one instant that keeps causes before effects.
   const auto merge = [this](auto&& list_of, auto&& before, auto&& take) {
     std::vector<std::size_t> next(domains_.size());
-    for (;;) {
+    const auto waits = [&](const auto& entry) {
+      for (std::size_t d = 0; d < domains_.size(); ++d)
+        for (std::size_t k = next[d] + 1; k < list_of(d).size() && list_of(d)[k].time == entry.time; ++k)
+          if (detail::is_same(list_of(d)[k], entry) && !detail::is_same(list_of(d)[next[d]], entry)) return true;
+      return false;
+    };
+    const auto first_of = [&](auto&& may_come) {
       std::size_t first = domains_.size();
       for (std::size_t d = 0; d < domains_.size(); ++d)
-        if (next[d] < list_of(d).size() && (first == domains_.size() || before(list_of(d)[next[d]], list_of(first)[next[first]])))
+        if (next[d] < list_of(d).size() &&
+            (first == domains_.size() || before(list_of(d)[next[d]], list_of(first)[next[first]])) &&
+            may_come(list_of(d)[next[d]]))
           first = d;
+      return first;
+    };
+    for (;;) {
+      std::size_t first = first_of([](const auto& /*entry*/) { return true; });
+      if (first < domains_.size() && waits(list_of(first)[next[first]]))
+        first = first_of([&](const auto& entry) { return !waits(entry); });
       if (first == domains_.size()) return;
-      take(list_of(first)[next[first]++]);
+      const auto entry = list_of(first)[next[first]];
+      take(entry);
+      for (std::size_t d = 0; d < domains_.size(); ++d)
+        if (next[d] < list_of(d).size() && detail::is_same(list_of(d)[next[d]], entry)) ++next[d];
     }
   };
   if (recorder.logging())
