@@ -595,8 +595,8 @@ TEST(Threads, TellTheCollisionsOfOneInTheirOrder) {
 }
 
 /// Rough disks that lose all of their speed towards each other but for its rounding collide again at once, by the plan of the one
-/// and then of the other, which may be at home in two domains.
-TEST(Threads, TellTheCollisionsOfAPairAtOneInstantInTheirOrder) {
+/// and then of the other, which may be at home in two domains, and with a third disk in between.
+TEST(Threads, TellTheCollisionsOfOneInstantInTheirOrder) {
   Scene scene = mixture(300);
   scene.effects.collision.restitution = 0.0;
   scene.effects.collision.roughness = 1.0;
