@@ -92,10 +92,16 @@ class Unit:
 
 def copied(path, source, together, change):
     """Returns a copy of a file whose text is what change(text, name) makes of it, where name is a name that no other file has."""
+
+    def whole(include):
+        """Returns an include of a header that is found from the place of the file with the whole path of that header."""
+        header = (path.parent / include[2]).resolve()
+        return f'{include[1]}"{header}"' if header.is_file() else include[0]
+
     copy = together / path.relative_to(source)
     copy.parent.mkdir(parents=True, exist_ok=True)
     name = re.sub(r"\W", "_", str(path.relative_to(source)))
-    copy.write_text(change(path.read_text(), name).replace('"../../', f'"{source}/'))
+    copy.write_text(re.sub(r'^(#include )"(.*)"', whole, change(path.read_text(), name), flags=re.M))
     return copy
 
 
