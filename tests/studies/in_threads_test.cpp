@@ -75,5 +75,23 @@ TEST(InThreads, PassOnTheFirstExceptionAndStopTheOthers) {
   EXPECT_EQ(ended, 1);
 }
 
+TEST(InThreads, PassOnWhatIsThrownWhileTheCallingThreadWaits) {
+  const std::thread::id caller = std::this_thread::get_id();
+  std::atomic<int> begun = 0;
+  std::atomic<bool> waits = false;
+  const auto proceed = [&]() -> bool { return waits ? throw std::runtime_error("the disk is full") : true; };
+  // The other thread works until it is told to stop: without that the call would not return.
+  EXPECT_THROW((void)in_threads(2, 2, proceed,
+                                [&](std::size_t, const std::function<bool()>& go_on) {
+                                  ++begun;
+                                  while (begun < 2) std::this_thread::yield();
+                                  if (std::this_thread::get_id() == caller)
+                                    waits = true;
+                                  else
+                                    while (go_on()) std::this_thread::yield();
+                                }),
+               std::runtime_error);
+}
+
 }  // namespace
 }  // namespace carom::test

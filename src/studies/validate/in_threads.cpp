@@ -15,6 +15,9 @@ bool in_threads(std::size_t count, unsigned threads, const std::function<bool()>
   std::atomic<std::size_t> next = 0;
   std::atomic<bool> stopped = false;
   std::exception_ptr error;  // what stopped the work, where that was an exception
+  const auto stop_by_exception = [&] {
+    if (!stopped.exchange(true)) error = std::current_exception();
+  };
   const auto take = [&](const std::function<bool()>& go_on) {
     while (!stopped) {
       const std::size_t k = next++;
@@ -22,7 +25,7 @@ bool in_threads(std::size_t count, unsigned threads, const std::function<bool()>
       try {
         work(k, go_on);
       } catch (...) {
-        if (!stopped.exchange(true)) error = std::current_exception();
+        stop_by_exception();
       }
     }
   };
@@ -42,7 +45,11 @@ bool in_threads(std::size_t count, unsigned threads, const std::function<bool()>
     take(here);
     using namespace std::chrono_literals;
     for (const std::future<void>& other : others)
-      while (other.wait_for(100ms) == std::future_status::timeout) here();
+      while (other.wait_for(100ms) == std::future_status::timeout) try {
+          here();
+        } catch (...) {
+          stop_by_exception();
+        }
   }
   if (error) std::rethrow_exception(error);
   return !stopped;
