@@ -1,5 +1,7 @@
 #include "theory/equation_of_state.hpp"
 
+#include <boost/math/quadrature/gauss.hpp>
+
 #include <array>
 #include <cmath>
 
@@ -58,6 +60,11 @@ double kolafa_rottner_error(double eta) { return 1e-5 * (kolafa_rottner(eta) - 1
 double kolafa_rottner_finite(double eta, std::int64_t disks) {
   const auto [z, z1, z2] = evaluate(eta);
   return z - eta / (2.0 * static_cast<double>(disks)) * (2.0 * z1 + eta * z2) / (z + eta * z1);
+}
+
+double excess_free_energy_difference(double from, double to, std::int64_t disks) {
+  const auto integrand = [&](double eta) { return (kolafa_rottner_finite(eta, disks) - 1.0) / eta; };
+  return boost::math::quadrature::gauss<double, 15>::integrate(integrand, from, to);
 }
 
 double structure_factor_at_zero(double eta) {

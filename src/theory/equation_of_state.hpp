@@ -19,6 +19,11 @@ namespace carom::theory {
 /// disks.
 [[nodiscard]] double kolafa_rottner_finite(double eta, std::int64_t disks);
 
+/// Returns the free energy of N disks in a periodic box at packing fraction `to` less that at `from`, over N kT: the integral of
+/// (Z_N - 1) / eta over eta with Z_N of kolafa_rottner_finite(). The box is the same and the disks are larger. Where the box is
+/// smaller, ln(to / from) of the ideal gas comes to it.
+[[nodiscard]] double excess_free_energy_difference(double from, double to, std::int64_t disks);
+
 /// Returns the limit of the structure factor S(k) at small k: kT times the isothermal compressibility times the density,
 /// 1 / (Z + eta Z'). Range and source as above.
 [[nodiscard]] double structure_factor_at_zero(double eta);

@@ -37,6 +37,27 @@ TEST(EquationOfState, DerivativesInTheFiniteSizeTermAgreeWithDifferences) {
   EXPECT_NEAR(theory::kolafa_rottner_finite(eta, 100) - z(eta), expected, 1e-6);
 }
 
+TEST(EquationOfState, FreeEnergyOfADiluteGasIsThatOfTheVirialSeries) {
+  // Term by term, b_n eta^(n - 1) gives b_n eta^(n - 1) / (n - 1). So many disks that 1/N does not count.
+  const double from = 0.001, to = 0.05;
+  double expected = 0.0;
+  for (std::size_t k = 0; k < theory::virial_coefficients.size(); ++k) {
+    const auto n = static_cast<double>(k + 1);
+    expected += theory::virial_coefficients[k] * (std::pow(to, n) - std::pow(from, n)) / n;
+  }
+  // The series ends with 12 eta^10; the equation of state is known to 1e-5 of Z - 1.
+  EXPECT_NEAR(theory::excess_free_energy_difference(from, to, 1'000'000'000'000), expected,
+              12.0 * std::pow(to, 10) + 1e-5 * expected);
+  EXPECT_DOUBLE_EQ(theory::excess_free_energy_difference(to, from, 100), -theory::excess_free_energy_difference(from, to, 100));
+}
+
+TEST(EquationOfState, FreeEnergyGrowsByThePressure) {
+  const double eta = 0.4, h = 1e-3;
+  const double slope = theory::excess_free_energy_difference(eta - h, eta + h, 100) / (2.0 * h);
+  // A central difference errs by h^2/6 times the second derivative of (Z - 1) / eta, some 50 here.
+  EXPECT_NEAR(slope, (theory::kolafa_rottner_finite(eta, 100) - 1.0) / eta, 1e-5);
+}
+
 TEST(EquationOfState, StructureFactorAtZeroIsOneOverTheSlopeOfThePressure) {
   EXPECT_NEAR(theory::structure_factor_at_zero(0.0), 1.0, 1e-15);
   for (const double eta : {0.1, 0.4, 0.65}) {
