@@ -159,6 +159,8 @@ struct ObservableRequest {
   std::optional<int> axis = {};                           ///< 0 or 1, or in a circular box 2: the radius
   std::optional<std::int64_t> disks = {};                 ///< how many disks of each species it follows, >= 1
   std::optional<std::array<std::int64_t, 2>> cells = {};  ///< numbers of cells along x and y, >= 1
+  /// Several wave numbers in place of `largest`, at most 32, each > 0; in inverse mean diameters. Empty: `largest` holds.
+  std::vector<double> wave_numbers = {};
 };
 
 /// All that is to be simulated.

@@ -32,6 +32,8 @@ struct Frame {
   std::array<Columns, 2> columns;  ///< the second may be empty
   bool log_x = false, log_y = false;
   const char* caption = "";
+  const char* quantity = "";             ///< whose value ends the names of columns where the table has several of its values
+  const char* caption_of_quantity = "";  ///< and what is then added to the caption
 };
 
 constexpr std::array<Frame, 25> frames = {{
@@ -161,7 +163,9 @@ constexpr std::array<Frame, 25> frames = {{
      {{{"F"}}},
      true,
      false,
-     "Of all disks together, which begins at S(k), and of each by itself, which begins at 1."},
+     "Of all disks together, which begins at S(k), and of each by itself, which begins at 1.",
+     "k",
+     " Wave numbers k are in inverse mean diameters."},
     {"overlap",
      "overlap",
      "Overlap with an earlier configuration",
@@ -289,13 +293,19 @@ Series series_of(const Table& table, const Column& x, const Column& y, std::stri
   return series;
 }
 
-std::string label_of(const Columns& columns, const Column& column, bool alone) {
-  const std::string suffix = column.name.substr(std::string_view(columns.values).size());
+/// `quantity` is that whose value ends the name of the column; empty where none does.
+std::string label_of(const Columns& columns, const Column& column, bool alone, const std::string& quantity) {
+  std::string suffix = column.name.substr(std::string_view(columns.values).size()), at;
+  if (!quantity.empty()) {
+    const std::size_t value = suffix.rfind('_');
+    at = fmt::format("{} = {}, ", quantity, suffix.substr(value + 1));
+    suffix.resize(value);
+  }
   if (*columns.name != '\0') return columns.name + suffix;
-  if (suffix.empty()) return alone ? "measured" : "all disks";
+  if (suffix.empty()) return at + (alone ? "measured" : "all disks");
   std::string words = suffix.substr(1);
   std::replace(words.begin(), words.end(), '_', ' ');
-  return words;
+  return at + words;
 }
 
 constexpr int line_group = 6;  // the colour of theory
@@ -307,6 +317,8 @@ Plot plot_of(const Frame& frame, const Table& table, const RunTheory& theory) {
   for (const Columns& columns : frame.columns) {
     if (columns.values == nullptr) continue;
     const std::vector<const Column*> found = with_species(table, columns.values);
+    const bool has_values = *frame.quantity != '\0' && !found.empty() && find_column(table, columns.values) == nullptr;
+    if (has_values) plot.caption += frame.caption_of_quantity;
     for (const Column* const column : found) {
       const Column* const x = *columns.x == '\0' ? &table.columns.front() : find_column(table, columns.x);
       if (x == nullptr) continue;
@@ -317,7 +329,8 @@ Plot plot_of(const Frame& frame, const Table& table, const RunTheory& theory) {
           plot.marks.push_back(
               {.axis = mark.on_first_column ? Mark::Across::x : Mark::Across::y, .value = mark.value, .label = mark.label});
       }
-      plot.series.push_back(series_of(table, *x, *column, label_of(columns, *column, found.size() == 1), group));
+      plot.series.push_back(
+          series_of(table, *x, *column, label_of(columns, *column, found.size() == 1, has_values ? frame.quantity : ""), group));
       for (TheoryCurve& curve : theory.curves(table, column->name)) {
         Series law{.name = std::move(curve.name),
                    .x = std::move(curve.x),

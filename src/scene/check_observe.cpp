@@ -5,13 +5,17 @@
 #include "scene/known_keys.hpp"
 #include "scene/number_keys.hpp"
 #include "scene/observables_known.hpp"
+#include "scene/wave_vectors.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <numbers>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace carom::detail {
 namespace {
@@ -58,6 +62,16 @@ void check_settings(const ObservableRequest& request, bool is_circle) {
     const NumberKey key{setting, example, Range::above_zero};
     if (value && !key.holds(*value)) refuse_number(fmt::format("{}.{}", path, setting), *value, key);
   };
+  if (known->takes_list) {
+    const std::string list = fmt::format("{}.{}", path, known->largest_key),
+                      example = example_of(known->largest_key, *known->largest);
+    const NumberKey key{known->largest_key, example, Range::above_zero};
+    if (request.wave_numbers.size() > most_wave_numbers)
+      throw Refusal(list,
+                    fmt::format("{} is a list of {}; it must be {}", list, request.wave_numbers.size(), expected_wave_numbers()));
+    for (std::size_t n = 0; n < request.wave_numbers.size(); ++n)
+      if (!key.holds(request.wave_numbers[n])) refuse_number(fmt::format("{}.{}", list, n), request.wave_numbers[n], key);
+  }
   require(known->range_key, request.range, known->range.value_or(1.0));
   require(known->largest_key, request.largest, known->largest.value_or(1.0));
   if (request.bins && !(*request.bins >= 2 && *request.bins <= most_bins))
@@ -108,14 +122,32 @@ void check_clusters(const Scene& scene, const ObservableRequest& request) {
     refuse_observable(request, std::string(why));
 }
 
-/// Wave vectors are whole numbers of waves in the box.
-void check_wave_number(const Scene& scene, const ObservableRequest& request) {
-  if (request.name != "intermediate_scattering" || !request.largest) return;
+/// Wave vectors are whole numbers of waves in the box. Columns have names by six digits of k, and no two have the same vectors.
+void check_wave_numbers(const Scene& scene, const ObservableRequest& request) {
+  if (request.name != "intermediate_scattering") return;
+  std::vector<double> numbers = request.wave_numbers;
+  if (numbers.empty() && request.largest) numbers.push_back(*request.largest);
   constexpr double most_waves = 1e6;
-  const double largest = 2.0 * std::numbers::pi * most_waves * mean_diameter(scene) / scene.box.lengths().maxCoeff();
-  if (*request.largest > largest)
-    refuse_observable(request, fmt::format("has k = {:.6g}, more than a million waves in the box; take k up to {:.6g}",
-                                           *request.largest, largest));
+  const double diameter = mean_diameter(scene);
+  const double largest = 2.0 * std::numbers::pi * most_waves * diameter / scene.box.lengths().maxCoeff();
+  for (std::size_t n = 0; n < numbers.size(); ++n) {
+    const double k = numbers[n];
+    if (k > largest)
+      refuse_observable(request,
+                        fmt::format("has k = {:.6g}, more than a million waves in the box; take k up to {:.6g}", k, largest));
+    const std::vector<Eigen::Vector2d> vectors = wave_vectors_near(k / diameter, scene.box.lengths());
+    for (std::size_t before = 0; before < n; ++before) {
+      const double other = numbers[before];
+      const std::string path = fmt::format("observe.{}.k.{}", request.name, n);
+      if (fmt::format("{:.6g}", k) == fmt::format("{:.6g}", other))
+        throw Refusal(path, fmt::format("observe.{}.k has {:.6g} twice, in six digits; remove one", request.name, k));
+      if (same_wave_vectors(vectors, wave_vectors_near(other / diameter, scene.box.lengths())))
+        throw Refusal(path,
+                      fmt::format("observe.{}.k has {:.6g} and {:.6g}, which have the same wave vectors in this box; remove "
+                                  "one",
+                                  request.name, other, k));
+    }
+  }
 }
 
 void check_structure(const Scene& scene, const ObservableRequest& request) {
@@ -145,7 +177,7 @@ void check_observe(const Scene& scene) {
     check_collisions(scene, request);
     check_structure(scene, request);
     check_clusters(scene, request);
-    check_wave_number(scene, request);
+    check_wave_numbers(scene, request);
     if (request.every) check_step(scene, fmt::format("observe.{}.every", request.name), *request.every);
     if (request.name == "wall_fluxes" && scene.box.periodic(0) && scene.box.periodic(1))
       refuse_observable(request, "measures fluxes through walls, and this box is periodic; remove it, or give an axis walls");

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -22,6 +23,7 @@ struct KnownObservable {
   std::optional<double> largest = {};
   std::string_view range_key = "range";      ///< what a scene calls ObservableRequest::range
   std::string_view largest_key = "largest";  ///< and ObservableRequest::largest
+  bool takes_list = false;                   ///< whether ObservableRequest::wave_numbers may be in its place
   std::optional<int> axis = {};
   std::optional<std::int64_t> disks = {};
   std::optional<std::array<std::int64_t, 2>> cells = {};
@@ -57,6 +59,7 @@ inline constexpr std::array<KnownObservable, 25> known_observables = {{
      .step = 0.5,
      .largest = 6.3,
      .largest_key = "k",
+     .takes_list = true,
      .disks = 1000},
     {.name = "overlap", .example = "overlap = { range = 0.3, disks = 1000 }", .step = 0.5, .range = 0.3, .disks = 1000},
     {.name = "non_gaussian", .example = "non_gaussian = { disks = 1000 }", .step = 0.5, .disks = 1000},
@@ -85,6 +88,15 @@ inline std::vector<std::string_view> names_of_observables() {
   std::vector<std::string_view> names;
   for (const KnownObservable& known : known_observables) names.push_back(known.name);
   return names;
+}
+
+/// The most numbers that ObservableRequest::wave_numbers may have.
+inline constexpr std::size_t most_wave_numbers = 32;
+
+/// Returns what a list of wave numbers may be.
+inline std::string expected_wave_numbers() {
+  return fmt::format("a finite number above zero, or a list of 1 to {} of them, such as k = 6.3 or k = [1.0, 3.5, 6.3]",
+                     most_wave_numbers);
 }
 
 /// Returns an example of a setting: "range = 5.0".

@@ -39,6 +39,22 @@ std::array<std::int64_t, 2> read_cells(const TableReader& table, const std::arra
   return cells;
 }
 
+/// Reads ObservableRequest::largest, or where the observable takes a list ObservableRequest::wave_numbers.
+void read_largest(const TableReader& table, const KnownObservable& known, ObservableRequest& request) {
+  const std::string example = example_of(known.largest_key, *known.largest);
+  const NumberKey key{known.largest_key, example, Range::above_zero};
+  const toml::node* const node = table.find(known.largest_key);
+  if (!known.takes_list || node == nullptr || node->is_number()) {
+    request.largest = table.number(key);
+    return;
+  }
+  const toml::array* const list = node->as_array();
+  if (list == nullptr || list->empty() || list->size() > most_wave_numbers)
+    refuse(*node, table.path(known.largest_key), expected_wave_numbers());
+  request.wave_numbers = read_numbers(*list, table.path(known.largest_key), key);
+  request.largest.reset();
+}
+
 void read_settings(const toml::table& node, const KnownObservable& known, bool is_circle, ObservableRequest& request) {
   std::vector<std::string_view> keys;
   if (known.step > 0.0) keys.emplace_back("every");
@@ -52,8 +68,7 @@ void read_settings(const toml::table& node, const KnownObservable& known, bool i
   if (known.step > 0.0) request.every = table.number(keys::observe_every);
   if (known.bins) request.bins = table.integer("bins", fmt::format("bins = {}", *known.bins)).value_or(*known.bins);
   if (known.range) request.range = table.number({known.range_key, example_of(known.range_key, *known.range), Range::above_zero});
-  if (known.largest)
-    request.largest = table.number({known.largest_key, example_of(known.largest_key, *known.largest), Range::above_zero});
+  if (known.largest) read_largest(table, known, request);
   if (known.axis) request.axis = read_axis(table, *request.axis, is_circle);
   if (known.disks) request.disks = table.integer("disks", fmt::format("disks = {}", *known.disks)).value_or(*known.disks);
   if (known.cells) request.cells = read_cells(table, *known.cells);
@@ -77,7 +92,7 @@ std::vector<ObservableRequest> read_observe(const toml::table& node, bool is_cir
     request.disks = known.disks;
     request.cells = known.cells;
     if (value->is_table()) read_settings(*value->as_table(), known, is_circle, request);
-    if (known.largest && !request.largest) request.largest = known.largest;
+    if (known.largest && !request.largest && request.wave_numbers.empty()) request.largest = known.largest;
     requests.push_back(std::move(request));
   }
   return requests;

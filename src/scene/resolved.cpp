@@ -133,7 +133,13 @@ void put_observe(Buffer& out, const std::vector<ObservableRequest>& requests) {
     std::vector<std::string> settings;
     if (request.every) settings.push_back(fmt::format("every = {}", number_text(*request.every)));
     if (request.range) settings.push_back(fmt::format("{} = {}", range, number_text(*request.range)));
-    if (request.largest) settings.push_back(fmt::format("{} = {}", largest, number_text(*request.largest)));
+    if (known != nullptr && known->takes_list && !request.wave_numbers.empty()) {
+      std::vector<std::string> numbers;
+      for (const double k : request.wave_numbers) numbers.push_back(number_text(k));
+      settings.push_back(fmt::format("{} = [{}]", largest, fmt::join(numbers, ", ")));
+    } else if (request.largest) {
+      settings.push_back(fmt::format("{} = {}", largest, number_text(*request.largest)));
+    }
     if (request.axis)
       settings.push_back(fmt::format("axis = \"{}\"", detail::axis_words.at(static_cast<std::size_t>(*request.axis))));
     if (request.bins) settings.push_back(fmt::format("bins = {}", *request.bins));

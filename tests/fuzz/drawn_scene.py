@@ -628,6 +628,11 @@ def draw_observe(r, scene, walled, gas):
             settings["axis"] = r.choice(["x", "y", "radius"] if "circle" in scene.tables["box"] else ["x", "y"])
         if name == "fields" and r.random() < 0.6:
             settings["cells"] = [r.choice([1, 2, 7, 30]), r.choice([1, 3, 16])]
+        if name == "intermediate_scattering" and r.random() < 0.5:
+            # These differ by more than a wave in boxes of a disk and more, so that no two are the same waves; a bold scene asks for such.
+            settings["k"] = r.choice([0.01, 6.3, r.sample([4.0, 11.5, 19.0, 31.0], r.choice([1, 2, 4]))])
+            if scene.bold:
+                settings["k"] = r.choice([[1.0, 1.5, 40.0], [6.3, 6.3], [], 6.3])
         observe[name] = settings or True
     if observe:
         scene.tables["observe"] = observe

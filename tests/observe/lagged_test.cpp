@@ -3,6 +3,7 @@
 
 #include "observe/lagged_states.hpp"
 #include "observe/observed_system.hpp"
+#include "support/same_measurements.hpp"
 
 #include <fmt/format.h>
 
@@ -10,6 +11,9 @@
 #include <complex>
 #include <functional>
 #include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace carom::test {
 namespace {
@@ -115,6 +119,45 @@ TEST(ObservedLags, ScatteringIsThatOfAllPairsOfStates) {
     }
   }
   EXPECT_NEAR(o.column("intermediate_scattering", 0, "F_self_big")[0], 1.0, rounding_of_lags);
+}
+
+/// With the number behind their names, in the order of the list, after the other names of the table.
+TEST(ObservedLags, ScatteringOfAListIsThatOfARunForEachWaveNumberToTheLastBit) {
+  const std::vector<std::pair<std::string, std::string>> numbers = {{"4.0", "_4"}, {"0.75", "_0.75"}, {"12.5625", "_12.5625"}};
+  const auto scattering = [](const std::string& k) {
+    return observe(parse_scene(periodic_mixture("intermediate_scattering = { every = 0.25, k = " + k + " }")), 0.25)
+        .of("intermediate_scattering");
+  };
+  const Measurement list = scattering("[4.0, 0.75, 12.5625]");
+  Measurement expected{.name = "intermediate_scattering", .tables = {{.name = "intermediate_scattering"}}};
+  for (const auto& [k, suffix] : numbers) {
+    const Measurement alone = scattering(k);
+    for (Scalar scalar : alone.scalars) {
+      scalar.name += suffix;
+      expected.scalars.push_back(scalar);
+    }
+    for (Column column : alone.tables.at(0).columns) {
+      if (column.name == "lag" && !expected.tables[0].columns.empty()) continue;
+      if (const std::size_t error = column.name.find("_error"); error != std::string::npos)
+        column.name.insert(error, suffix);
+      else if (column.name != "lag")
+        column.name += suffix;
+      expected.tables[0].columns.push_back(column);
+    }
+  }
+  ASSERT_EQ(list.scalars.size(), 9U) << "k and two relaxation times for each";
+  ASSERT_EQ(list.tables.at(0).columns.size(), expected.tables[0].columns.size());
+  for (std::size_t s = 0; s < list.scalars.size(); ++s) EXPECT_EQ(list.scalars[s].name, expected.scalars[s].name);
+  for (std::size_t c = 0; c < list.tables[0].columns.size(); ++c)
+    EXPECT_EQ(list.tables[0].columns[c].name, expected.tables[0].columns[c].name);
+  EXPECT_EQ(list.tables[0].columns[3].name, "F_self_big_4");
+  expect_same_measurements({list}, {expected});
+}
+
+TEST(ObservedLags, ScatteringOfAListOfOneHasTheNumberInItsNames) {
+  const Observed o = observe(parse_scene(small_fluid("intermediate_scattering = { every = 0.25, k = [6.25] }")), 0.25);
+  EXPECT_EQ(o.column("intermediate_scattering", 0, "F_self_6.25").size(), o.column("intermediate_scattering", 0, "lag").size());
+  EXPECT_GT(o.value("intermediate_scattering", "k_6.25"), 0.0);
 }
 
 TEST(ObservedLags, OverlapAndItsFluctuationsAreThoseOfAllPairsOfStates) {

@@ -204,6 +204,17 @@ TEST_F(ReportPage, AMixtureHasItsSpeciesInEveryPlotEachWithItsLaw) {
   EXPECT_THAT(words_of(page, "Pressure"), HasSubstr("on which nothing else acts"));
 }
 
+TEST_F(ReportPage, ScatteringOfSeveralWaveNumbersIsOnePlotWithEachByItsNumber) {
+  const Page page = report_page(recorded(fluid + "[observe]\nintermediate_scattering = { k = [3.5, 10.0] }\n"), std::nullopt);
+  EXPECT_EQ(std::ranges::count(ids_of(page), "intermediate-scattering"), 1);
+  for (const char* const name : {"k = 3.5, all disks", "k = 3.5, self", "k = 10, all disks", "k = 10, self"})
+    EXPECT_NE(series_of(page, "intermediate-scattering", name), nullptr) << name;
+  run_ = directory_.path() / "one";
+  const Page one = report_page(recorded(fluid + "[observe]\nintermediate_scattering = { k = 3.5 }\n"), std::nullopt);
+  for (const char* const name : {"all disks", "self"})
+    EXPECT_NE(series_of(one, "intermediate-scattering", name), nullptr) << name;
+}
+
 /// Of a density that is given at even steps from the first of them on.
 double integral(const Series& series) {
   double sum = 0.0;

@@ -59,13 +59,26 @@ TEST(Observe, ResolvedSceneAsksForTheSame) {
         "density_profile = { axis = \"x\" }\nstructure_factor = { largest = 7.0 }\nviscosity = { every = 1e-3 }",
         "velocity_autocorrelation = { disks = 3 }", "voronoi = { bins = 7 }\nclusters = { gap = 0.25 }",
         "intermediate_scattering = { k = 3.5 }\nvan_hove = { range = 70.0 }\noverlap = { range = 0.2 }",
-        "fields = { cells = [3, 7] }"}) {
+        "fields = { cells = [3, 7] }", "intermediate_scattering = { k = [6.3, 0.1, 17] }",
+        "intermediate_scattering = { k = [3.5] }"}) {
     const Scene scene = observed(table);
     EXPECT_EQ(first_difference(scene, parse_scene(resolved_toml(scene))), "") << table;
   }
   EXPECT_THAT(
       resolved_toml(observed("density_profile = { axis = \"x\" }\nspeeds = true\npressure = true")),
       HasSubstr("\n[observe]\npressure = true\nspeeds = { bins = 100 }\ndensity_profile = { axis = \"x\", bins = 100 }\n"));
+}
+
+TEST(Observe, WaveNumbersAreOneOrAList) {
+  const auto request = [](const std::string& settings) {
+    return observed("intermediate_scattering = " + settings).observe.at(0);
+  };
+  EXPECT_EQ(request("true").largest, 6.3);
+  EXPECT_EQ(request("{ k = 2 }").largest, 2.0);
+  EXPECT_TRUE(request("{ k = 2 }").wave_numbers.empty());
+  EXPECT_EQ(request("{ k = [6.3, 1, 3.5] }").wave_numbers, (std::vector<double>{6.3, 1.0, 3.5})) << "in the order of the scene";
+  EXPECT_FALSE(request("{ k = [2.0] }").largest) << "a list of one is a list";
+  EXPECT_EQ(request("{ k = [2.0] }").wave_numbers, std::vector<double>{2.0});
 }
 
 TEST(Observe, OverridesReachIt) {

@@ -124,7 +124,8 @@ inline std::string first_difference(const Scene& a, const Scene& b) {
   for (std::size_t k = 0; k < a.observe.size(); ++k) {
     const ObservableRequest &x = a.observe[k], &y = b.observe[k];
     if (x.name != y.name || !same_maybe(x.every, y.every) || x.bins != y.bins || !same_maybe(x.range, y.range) ||
-        !same_maybe(x.largest, y.largest) || x.axis != y.axis || x.disks != y.disks || x.cells != y.cells) {
+        !same_maybe(x.largest, y.largest) || x.axis != y.axis || x.disks != y.disks || x.cells != y.cells ||
+        !same_list(x.wave_numbers, y.wave_numbers, same)) {
       return "observe." + x.name;
     }
   }

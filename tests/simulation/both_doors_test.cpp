@@ -48,6 +48,12 @@ ObservableRequest observable(const std::string& name) {
   return request;
 }
 
+std::string numbers_up_to(int last) {
+  std::string text = "1.0";
+  for (int k = 2; k <= last; ++k) text += ", " + std::to_string(k) + ".0";
+  return text;
+}
+
 const double not_a_number = std::numeric_limits<double>::quiet_NaN(), infinite_number = std::numeric_limits<double>::infinity();
 
 std::vector<Case> cases() {
@@ -555,6 +561,37 @@ std::vector<Case> cases() {
        periodic,
        {"observe.intermediate_scattering={ k = 1e12 }"},
        [](Scene& s) { s.observe = {observable("intermediate_scattering")}, s.observe[0].largest = 1e12; }},
+      {"ScatteringAtANegativeKOfAList",
+       periodic,
+       {"observe.intermediate_scattering={ k = [3.0, -1.0] }"},
+       [](Scene& s) {
+         s.observe = {observable("intermediate_scattering")}, s.observe[0].wave_numbers = {3.0, -1.0};
+       }},
+      {"ScatteringOfMillionsOfWavesInAList",
+       periodic,
+       {"observe.intermediate_scattering={ k = [3.0, 1e12] }"},
+       [](Scene& s) {
+         s.observe = {observable("intermediate_scattering")}, s.observe[0].wave_numbers = {3.0, 1e12};
+       }},
+      {"ScatteringTwice",
+       periodic,
+       {"observe.intermediate_scattering={ k = [3.0, 4.0, 3.0] }"},
+       [](Scene& s) {
+         s.observe = {observable("intermediate_scattering")}, s.observe[0].wave_numbers = {3.0, 4.0, 3.0};
+       }},
+      {"ScatteringOfTheSameWaves",
+       periodic,
+       {"observe.intermediate_scattering={ k = [1e-3, 2e-3] }"},
+       [](Scene& s) {
+         s.observe = {observable("intermediate_scattering")}, s.observe[0].wave_numbers = {1e-3, 2e-3};
+       }},
+      {"ScatteringAtTooMany",
+       periodic,
+       {"observe.intermediate_scattering={ k = [" + numbers_up_to(33) + "] }"},
+       [](Scene& s) {
+         s.observe = {observable("intermediate_scattering")};
+         for (int k = 1; k <= 33; ++k) s.observe[0].wave_numbers.push_back(k);
+       }},
       {"ScatteringBetweenWalls", walls, {"observe.intermediate_scattering=true"}, observe("intermediate_scattering")},
       {"ClustersWithoutAGap",
        periodic,

@@ -51,7 +51,7 @@ voronoi = true
 clusters = true
 density_profile = true
 mean_square_displacement = true
-intermediate_scattering = true
+intermediate_scattering = { k = [1.5, 6.3, 9.0] }
 overlap = true
 non_gaussian = true
 van_hove = true

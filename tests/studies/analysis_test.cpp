@@ -8,6 +8,8 @@
 #include "support/recorded_run.hpp"
 #include "support/same_measurements.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -66,7 +68,7 @@ const std::string of_states =
     "h_function = { every = 0.3 }\npressure = { every = 0.3 }\ncollision_rate = { every = 0.6 }\n";
 const std::string of_structure =
     "radial_distribution = { every = 0.3, range = 2.0 }\nstructure_factor = { every = 1.0 }\nvoronoi = { every = 1.0 }\nclusters "
-    "= { every = 0.5 }\nintermediate_scattering = { every = 0.1 }\nhexatic = { every = 0.5, range = "
+    "= { every = 0.5 }\nintermediate_scattering = { every = 0.1, k = [2.5, 6.3] }\nhexatic = { every = 0.5, range = "
     "2.0 "
     "}\n";
 const std::string of_motion =
@@ -156,6 +158,7 @@ TEST_P(Analysed, WhetherTheRunMeasuredItOrNot) {
     std::string settings = request.every ? "every = " + std::to_string(*request.every) + ", " : "";
     if (request.range)
       settings += std::string(detail::find_observable(request.name)->range_key) + " = " + std::to_string(*request.range) + ", ";
+    if (!request.wave_numbers.empty()) settings += fmt::format("k = [{}], ", fmt::join(request.wave_numbers, ", "));
     if (!settings.empty()) settings.resize(settings.size() - 2);
     words.push_back(request.name + (settings.empty() ? "" : "={ " + settings + " }"));
   }

@@ -217,6 +217,17 @@ TEST_F(SweepReader, AColumnThatBeginsAsAnotherIsThatOne) {
               HasSubstr("did you mean \"observables.intermediate_scattering.F_self@lag\"?"));
 }
 
+TEST_F(SweepReader, ColumnsOfSeveralWaveNumbersAreForetold) {
+  const auto at = [&](const std::string& name) {
+    return files_.refusal(scene_line + "table = [\"observables.intermediate_scattering." + name +
+                          "\"]\n[set]\nrun.time = 4.0\nobserve = { intermediate_scattering = { k = [3.5, 10.0] } }\n");
+  };
+  for (const char* right : {"F_3.5@0.3", "F_self_10@0.3", "F_self_3.5_error@0.3", "relaxation_time_10", "k_3.5"})
+    EXPECT_EQ(at(right), "") << right;
+  EXPECT_THAT(at("F_self_10.0@0.3"), HasSubstr("no run has that number"));
+  EXPECT_THAT(at("F_self@0.3"), HasSubstr("did you mean \"observables.intermediate_scattering.F_self_3.5@lag\"?"));
+}
+
 TEST_F(SweepReader, ASceneIsToldFromASweep) {
   EXPECT_THAT(files_.refusal(fifty_disks), HasSubstr("this is a scene: carom run runs it"));
 }
@@ -239,6 +250,7 @@ TEST(ScenesSweepNumbers, AreForetoldForEveryEffectAndObservable) {
       {"collision.restitution=0.9", "collision.roughness=0.1", "run.accept_overlap=true"},
       {"collision.rule=reversal", "obstacles=[{ segment = { from = [0.0, 0.0], to = [0.1, 0.0] } }]", "disks.0.positions=random"},
       {"growth.rate=0.001"},
+      {"observe.intermediate_scattering.k=[3.5, 10.0]"},
       {"thermostat.temperature=1.0", "thermostat.rate=1.0"},
       {"shear.rate=0.1"},
       {"square_well.width=1.1", "square_well.depth=0.1"},

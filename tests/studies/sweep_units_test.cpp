@@ -103,6 +103,7 @@ const std::map<std::string, std::string> units = {
     {"observe.fields.cells.0", pure},
     {"observe.overlap.disks", pure},
     {"observe.intermediate_scattering.k", pure},
+    {"observe.intermediate_scattering.k.1", pure},
     {"changes.0.time", "time"},
     {"changes.0.scale_velocities", pure},
     {"changes.0.remove_obstacle", pure},
