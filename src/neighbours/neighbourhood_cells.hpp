@@ -42,25 +42,31 @@ class NeighbourhoodCells {
     for (int a = 0; a < 2; ++a) {
       const double length = axes[a]->upper - axes[a]->lower;
       lines_[a].columns = static_cast<std::int64_t>(std::clamp(std::floor(length / (1.4 * reach)), 1.0, 0x1p40));
-      lines_[a].cells = static_cast<std::int32_t>(std::min<std::int64_t>(lines_[a].columns, std::int64_t{1} << 30));
     }
-    // A box that is empty for the most part would have too many cells: they share blocks then, as if the box were folded.
-    while (static_cast<double>(lines_[0].cells) * static_cast<double>(lines_[1].cells) >
-           64.0 + static_cast<double>(disks) / 1.5) {
-      Line& longer = lines_[0].cells > lines_[1].cells ? lines_[0] : lines_[1];
-      longer.cells = (longer.cells + 1) / 2;
-    }
+    // A box that is empty for the most part, as it is for a domain, would have too many cells: they share blocks then, as if the
+    // box were folded. Where it is full there are never less than 2.2 disks in a cell.
+    std::int64_t folds[2] = {1, 1};
+    const auto cells_along = [&](int a) { return lines_[a].columns / folds[a]; };
+    const auto more_cells_than_for = [&](double disks_in_each) {
+      return static_cast<double>(cells_along(0)) * static_cast<double>(cells_along(1)) >
+             64.0 + static_cast<double>(disks) / disks_in_each;
+    };
+    if (more_cells_than_for(1.8))
+      while (more_cells_than_for(3.0)) {
+        std::int64_t& longer = folds[cells_along(0) > cells_along(1) ? 0 : 1];
+        longer += 1 + longer / 4;
+      }
     for (int a = 0; a < 2; ++a) {
       const double steps = (axes[a]->upper - axes[a]->lower) / (axes[a]->unit * 0x1p32);
-      lines_[a].columns -= lines_[a].columns % lines_[a].cells;
+      lines_[a].cells = static_cast<std::int32_t>(cells_along(a));
+      lines_[a].columns = lines_[a].cells * folds[a];
       lines_[a].periodic = axes[a]->periodic;
       lines_[a].lower = -0.5 * steps;
       lines_[a].per_step = static_cast<double>(lines_[a].columns) / steps;
     }
-    const auto cells = static_cast<std::size_t>(lines_[0].cells) * static_cast<std::size_t>(lines_[1].cells);
-    reserve(blocks_, cells);
-    blocks_.assign(cells, empty_block());
-    next_.assign(cells, -1);
+    reserve(blocks_, cells());
+    blocks_.assign(cells(), empty_block());
+    next_.assign(cells(), -1);
   }
 
   void insert(std::int32_t i, NeighbourhoodCentre centre, float radius) {
@@ -160,8 +166,10 @@ class NeighbourhoodCells {
   }
 
   /// Blocks that follow full ones.
-  [[nodiscard]] std::size_t spilled() const {
-    return blocks_.size() - static_cast<std::size_t>(lines_[0].cells) * static_cast<std::size_t>(lines_[1].cells);
+  [[nodiscard]] std::size_t spilled() const { return blocks_.size() - cells(); }
+  /// The number of cells with blocks of their own.
+  [[nodiscard]] std::size_t cells() const {
+    return static_cast<std::size_t>(lines_[0].cells) * static_cast<std::size_t>(lines_[1].cells);
   }
   [[nodiscard]] float largest_radius() const { return largest_radius_; }
   [[nodiscard]] const CellBlock* blocks() const { return blocks_.data(); }

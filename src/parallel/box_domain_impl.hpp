@@ -556,10 +556,11 @@ typename BoxDomain<Impact, Layout, World>::Message BoxDomain<Impact, Layout, Wor
 
 template <class Impact, class Layout, class World>
 std::size_t BoxDomain<Impact, Layout, World>::bytes() const {
-  std::size_t messages = 0;
-  for (const auto& outbox : outboxes_) messages += outbox.capacity() * sizeof(Message);
-  return Loop::bytes() + marks_.capacity() * sizeof(Mark) + slot_of_.bytes() + messages +
-         (moved_.capacity() + halo_.capacity() + unused_.capacity()) * sizeof(std::int32_t);
+  std::size_t slots = moved_.capacity() + halo_.capacity() + unused_.capacity(), messages = 0;
+  for (const auto& copied : copied_) slots += copied.capacity();
+  for (const auto& outbox : outboxes_) messages += outbox.capacity();
+  return Loop::bytes() + marks_.capacity() * sizeof(Mark) + slot_of_.bytes() + slots * sizeof(std::int32_t) +
+         messages * sizeof(Message) + reads_.capacity() * sizeof(Read);
 }
 
 }  // namespace carom

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <random>
@@ -64,6 +65,55 @@ TEST(NeighbourhoodCells, KeepEverybodyWhileTheyMove) {
       EXPECT_EQ(centre.y, at[static_cast<std::size_t>(i)].y);
     });
     EXPECT_EQ(seen, std::vector<int>(disks, 1));
+  }
+}
+
+TEST(NeighbourhoodCells, TakeMemoryByTheDisksAndNotByTheBox) {
+  Box box;
+  box.lower = {0.0, 0.0};
+  box.upper = {1001.0, 1001.0};
+  box.boundary = {Boundary::periodic, Boundary::walls};
+  const FixedAxis x(box, 0, 0.0), y(box, 1, 0.0);
+  // A full box has a cell for each four or five disks, one in which few are left no more than one for three and 64 others.
+  EXPECT_EQ(NeighbourhoodCells(x, y, 0.5F, 1.0, 1'000'000).cells(), 715U * 715U);
+  for (const std::size_t disks :
+       {std::size_t{0}, std::size_t{10}, std::size_t{1000}, std::size_t{70'000}, std::size_t{250'000}}) {
+    const std::size_t cells = NeighbourhoodCells(x, y, 0.5F, 1.0, disks).cells();
+    EXPECT_LE(cells, 64 + disks / 3) << disks;
+    EXPECT_GE(cells, (64 + disks / 3) / 2) << disks;
+  }
+}
+
+TEST(NeighbourhoodCells, FindTheDisksNearAPlaceWhereTheBoxIsFolded) {
+  // Of 200 disks in a corner of a long box, all within reach of a place are found from there, across its periodic edge too.
+  Box box;
+  box.lower = {0.0, 0.0};
+  box.upper = {997.0, 61.0};
+  box.boundary = {Boundary::periodic, Boundary::periodic};
+  const FixedAxis x(box, 0, 0.0), y(box, 1, 0.0);
+  constexpr std::int32_t disks = 200;
+  NeighbourhoodCells cells(x, y, 0.5F, 1.0, disks);
+  std::mt19937_64 random{2};
+  std::vector<NeighbourhoodCentre> at;
+  for (std::int32_t i = 0; i < disks; ++i) {
+    at.push_back({static_cast<std::int32_t>(random()) >> 6, static_cast<std::int32_t>(random()) >> 2});
+    cells.insert(i, at.back(), 0.5F);
+  }
+  for (const NeighbourhoodCentre& place : at) {
+    const double reach = 0x1p28;
+    std::vector<int> seen(disks, 0);
+    cells.for_each(cells.around(place, {reach, reach}),
+                   [&](std::int32_t i, NeighbourhoodCentre, float) { ++seen[static_cast<std::size_t>(i)]; });
+    for (std::int32_t j = 0; j < disks; ++j) {
+      const auto apart = [](std::int32_t a, std::int32_t b) {  // wraps round as the box does
+        return std::abs(
+            static_cast<double>(static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b))));
+      };
+      const NeighbourhoodCentre& other = at[static_cast<std::size_t>(j)];
+      const bool near = apart(place.x, other.x) <= reach && apart(place.y, other.y) <= reach;
+      const int times = seen[static_cast<std::size_t>(j)];
+      EXPECT_TRUE(times == 1 || (times == 0 && !near)) << times;
+    }
   }
 }
 
