@@ -171,9 +171,10 @@ Section observed(const RunReport& report, const RunTheory& theory) {
     // The note on all observables is part of the summary.
     if (!measured.note.empty() && measured.note != report.note_on_errors)
       section.blocks.emplace_back(Paragraph{fmt::format("`{}`: {}.", measured.name, measured.note)});
+    const auto in_time = std::ranges::find(measured.tables, "fields_in_time", &Table::name);
     for (const Table& table : measured.tables) {
       if (table.name == "fields")
-        if (std::optional<std::string> maps = field_maps(table))
+        if (std::optional<std::string> maps = field_maps(table, in_time == measured.tables.end() ? nullptr : &*in_time))
           section.blocks.emplace_back(EmbeddedPage{"Maps of the fields", std::move(*maps)});
       for (Plot& plot : plots_of(table, theory)) section.blocks.emplace_back(std::move(plot));
     }

@@ -101,6 +101,36 @@ TEST(BrowserReport, WhatGoesWrongInThePlayerIsSaidOnThePage) {
   EXPECT_THAT(data(visit, "errors"), HasSubstr("Replay of the run: Uncaught ReferenceError: nonsense is not defined"));
 }
 
+TEST(BrowserReport, TheMapsOfFieldsAreThoseOfAStretchWhereItsSliderStands) {
+  if (!has_browser()) GTEST_SKIP() << no_browser;
+  const Visit visit =
+      visited({},
+              "const maps = document.querySelector(\"iframe[title='Maps of the fields']\").contentDocument;\n"
+              "const cells = () => [...maps.querySelectorAll('svg')].map((map) => [...map.querySelectorAll('path')]"
+              ".map((path) => path.getAttribute('fill') + path.getAttribute('d') + path.textContent).join());\n"
+              "const go = (to) => {\n"
+              "  maps.getElementById('time').value = to;\n"
+              "  maps.getElementById('time').dispatchEvent(new Event('input'));\n"
+              "  return cells();\n"
+              "};\n"
+              "const average = cells(), captions = maps.body.textContent;\n"
+              "const one = go(1), last = go(20);\n"
+              "root.each = one.every((map, k) => map !== average[k] && map !== last[k]);\n"
+              "root.stretch = maps.getElementById('stretch').textContent;\n"
+              "root.back = go(0).join() === average.join() && maps.body.textContent === captions;\n"
+              "maps.getElementById('play').click();\n"
+              "await new Promise((done) => setTimeout(done, 1000));\n"
+              "root.plays = Number(maps.getElementById('time').value) > 0;\n"
+              "root.inside = maps.documentElement.dataset.errors;\n");
+  EXPECT_THAT(visit.console, IsEmpty());
+  EXPECT_EQ(data(visit, "errors"), "");
+  EXPECT_EQ(data(visit, "inside"), "");
+  EXPECT_EQ(data(visit, "each"), "true");
+  EXPECT_EQ(data(visit, "back"), "true");
+  EXPECT_EQ(data(visit, "plays"), "true");
+  EXPECT_THAT(data(visit, "stretch"), testing::StartsWith("time 1"));
+}
+
 TEST(BrowserReport, ANarrowFrameIsAsHighAsAllOfThePlayer) {
   if (!has_browser()) GTEST_SKIP() << no_browser;
   const Visit visit = visited({},

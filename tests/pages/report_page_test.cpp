@@ -148,6 +148,8 @@ TEST_F(ReportPage, HasMapsOfFieldsOnAGridAndProfilesOfALineOfCells) {
   EXPECT_EQ(count(grid, "<path fill=\"#"), 18U) << "six cells on each map";
   EXPECT_EQ(count(grid, "Arrows: "), 2U);
   EXPECT_THAT(grid, AllOf(Not(HasSubstr("nan")), Not(HasSubstr("inf"))));
+  // The run is kept as 16 to 31 stretches, and one place of the slider is the average.
+  EXPECT_THAT(grid, testing::ContainsRegex("<input id=\"time\" type=\"range\" min=\"0\" max=\"(1[6-9]|2[0-9]|3[01])\""));
   const std::filesystem::path first = run_;
   run_ = directory_.path() / "line";
   const Page line = report_page(recorded(fluid + "[observe]\nfields = { cells = [1, 4] }\n"), std::nullopt);
