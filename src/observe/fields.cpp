@@ -20,7 +20,7 @@
 //
 // Averages over time: of disks at the steps, of collisions over all the time between. The run is kept as up to thirty-two
 // stretches of equal length, each twice as long as before when there would be more. They are the fields in time, and errors come
-// from them by the jackknife.
+// from them or from pairs of them by the jackknife, whichever are larger.
 
 #include "observe/area_in_circle.hpp"
 #include "observe/blocking.hpp"
@@ -325,6 +325,16 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
     return places;
   }
 
+  /// Returns the larger ones of variances by the jackknife over all stretches, and of those over pairs of them, which
+  /// correlations from one stretch to the next lower less. Of an odd number of stretches the first is in no pair.
+  [[nodiscard]] FieldValues larger_by_pairs(std::size_t c, const FieldValues& by_stretches) const {
+    const std::size_t count = stretches_.size(), alone = count % 2;
+    FieldValues larger = estimates(c, alone, count, 2).variance;
+    const double share = static_cast<double>(count - alone) / static_cast<double>(count);
+    for (std::size_t f = 0; f < larger.size(); ++f) larger[f] = std::max(share * larger[f], by_stretches[f]);
+    return larger;
+  }
+
   /// Returns the fields averaged over all whole stretches, with errors by the jackknife over these, and halves compared.
   [[nodiscard]] Table averages() const {
     Table table{.name = "fields"};
@@ -340,9 +350,10 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
     std::vector<ColumnComparison> comparisons(names_.size());
     for (std::size_t c = 0; c < coming_.size(); ++c) {
       const FieldEstimates all = estimates(c, 0, count, 1);
+      const FieldValues variance = count < most_stretches / 2 ? all.variance : larger_by_pairs(c, all.variance);
       for (std::size_t f = 0; f < names_.size(); ++f) {
         table.columns[first + 2 * f].values.push_back(all.mean[f]);
-        table.columns[first + 2 * f + 1].values.push_back(count < least_for_errors ? unknown : std::sqrt(all.variance[f]));
+        table.columns[first + 2 * f + 1].values.push_back(count < least_for_errors ? unknown : std::sqrt(variance[f]));
       }
       if (begin == 0) continue;
       const FieldEstimates before = estimates(c, 0, begin, 1), rest = estimates(c, begin, count, 1),
