@@ -1,5 +1,7 @@
 #include "observe/equilibrium.hpp"
 
+#include "scene/checks.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -19,6 +21,9 @@ bool has_walls_of_different_temperature(const Effects& effects) {
   }
   return false;
 }
+
+/// The packing fraction beyond which equal disks are a crystal.
+constexpr double densest_fluid = 0.72;
 
 struct Masses {
   double least = std::numeric_limits<double>::infinity();
@@ -53,6 +58,9 @@ bool temperature_fluctuates(const Effects& effects) {
 
 std::string_view why_errors_are_of_one_start(const Scene& scene) {
   const Effects& effects = scene.effects;
+  if (scene.packing_fraction() > densest_fluid && !detail::radii_of(scene).equal())
+    return "so dense a mixture rearranges slowly: unless the run is many relaxation times long, another start may differ by more "
+           "than the errors";
   if (effects.collision.rule != CollisionRule::reversal || temperature_fluctuates(effects) ||
       !why_no_Z(effects, &detail::EffectTraits::keeps_speeds).empty())
     return {};
@@ -60,7 +68,7 @@ std::string_view why_errors_are_of_one_start(const Scene& scene) {
   return "under reversal, disks of equal mass only exchange velocities: another start may differ by more than the errors";
 }
 
-bool is_crystal(const Scene& scene) { return scene.packing_fraction() > 0.72; }
+bool is_crystal(const Scene& scene) { return scene.packing_fraction() > densest_fluid && detail::radii_of(scene).equal(); }
 
 std::string_view why_error_of_Z_is_off(const Scene& scene, double collisions_per_disk) {
   constexpr double blocks = 32.0;

@@ -21,11 +21,12 @@ namespace carom {
 [[nodiscard]] bool temperature_fluctuates(const Effects& effects);
 
 /// Returns the reason why errors of one run do not cover the scatter between starts, as a sentence without its stop; empty where
-/// they do. Reversal of equal masses never changes the set of speeds.
+/// they do. Reversal of equal masses never changes the set of speeds, and a mixture beyond a packing fraction of 0.72 keeps its
+/// arrangement for long.
 [[nodiscard]] std::string_view why_errors_are_of_one_start(const Scene& scene);
 
-/// Returns whether the scene is so dense (packing fraction beyond 0.72) that its disks rattle in a crystal. Most of the virial
-/// then oscillates, and blocks overestimate the error of its mean.
+/// Returns whether the scene has equal disks so dense (packing fraction beyond 0.72) that they rattle in a crystal. Most of the
+/// virial then oscillates, and blocks overestimate the error of its mean.
 [[nodiscard]] bool is_crystal(const Scene& scene);
 
 /// Returns the reason why the error of the summary's Z is a lower bound or too large, as a sentence without its stop; empty where

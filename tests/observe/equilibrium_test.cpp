@@ -87,6 +87,23 @@ TEST(Equilibrium, TheErrorOfZIsTooLargeInACrystal) {
   EXPECT_THAT(std::string(why_error_of_Z_is_off(gas_scene(64, 0.71, Boundary::periodic), 1e6)), IsEmpty());
 }
 
+/// Two sizes do not crystallise: they keep the arrangement that they begin with for long.
+TEST(Equilibrium, ErrorsAreOfOneStartInADenseMixture) {
+  for (const double fraction : {0.71, 0.73}) {
+    Scene scene = gas_scene(64, fraction, Boundary::periodic);
+    EXPECT_THAT(std::string(why_errors_are_of_one_start(scene)), IsEmpty()) << "equal disks, " << fraction;
+    // A quarter of the disks twice as large and the others smaller, at the same packing fraction.
+    Species& species = scene.species.front();
+    const double small = species.radius * std::sqrt(4.0 / 7.0);
+    species.radii.assign(64, small);
+    for (std::size_t i = 0; i < 16; ++i) species.radii[i] = 2.0 * small;
+    ASSERT_NEAR(scene.packing_fraction(), fraction, 1e-12);
+    EXPECT_EQ(why_errors_are_of_one_start(scene).empty(), fraction < 0.72);
+    EXPECT_FALSE(is_crystal(scene));
+    EXPECT_THAT(std::string(why_error_of_Z_is_off(scene, 1e6)), IsEmpty()) << "nothing says that it is too large";
+  }
+}
+
 TEST(Equilibrium, OutOfItThereIsNoZ) {
   EXPECT_THAT(why_no_Z(with([](Effects& e) { e.collision.restitution = 0.9; })), HasSubstr("collisions"));
   EXPECT_THAT(why_no_Z(with([](Effects& e) { e.collision.roughness = 0.5; })), HasSubstr("collisions"));
