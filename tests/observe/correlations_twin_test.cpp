@@ -89,6 +89,23 @@ TEST(ObservedCorrelations, RelaxationTimeIsWhereTheOverlapFallsToOneOverE) {
   EXPECT_NEAR(found.value.value(), 0.3 / std::sqrt(-std::log(1.0 - std::exp(-1.0))), 4.0 * found.error.value());
 }
 
+/// Between two rows the function is a line in the logarithm of the lag, and errs by no more than the errors of both in
+/// proportion.
+TEST(ObservedCorrelations, RelaxationTimeErrsAsTheLineBetweenBothRows) {
+  const Observed o = in_a_bath(0.02, 1500.0, "overlap = { every = 0.05, range = 30.0 }");
+  const std::vector<double>&lag = o.column("overlap", 0, "lag"), &overlap = o.column("overlap", 0, "overlap"),
+        &error = o.column("overlap", 0, "overlap_error");
+  const double level = std::exp(-1.0);
+  std::size_t row = 1;
+  while (!(overlap[row - 1] >= level && overlap[row] < level)) ++row;
+  const double per_logarithm = (overlap[row - 1] - overlap[row]) / std::log(lag[row] / lag[row - 1]);
+  const double time = lag[row - 1] * std::exp((overlap[row - 1] - level) / per_logarithm);
+  const double way = std::log(time / lag[row - 1]) / std::log(lag[row] / lag[row - 1]);
+  const Scalar& found = o.scalar("overlap", "relaxation_time");
+  EXPECT_NEAR(found.value.value(), time, 1e-12);
+  EXPECT_NEAR(found.error.value(), ((1.0 - way) * error[row - 1] + way * error[row]) * time / per_logarithm, 1e-12);
+}
+
 TEST(ObservedCorrelations, VelocityAutocorrelationAtShortLagsIsThatOfAllPairsOfStates) {
   const Observed& o = fluid_with_correlations();
   for (std::size_t k = 0; k < 16; ++k) {
