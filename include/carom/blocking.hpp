@@ -37,18 +37,25 @@ class Blocking {
   void add(double x, double weight = 1.0);
 
   struct Estimate {
-    double mean = 0.0;            ///< <x> / <w>^power, in the unit of the samples
-    std::optional<double> error;  ///< standard error of `mean`; absent with fewer than 16 samples, or 8 that do not overlap
+    double mean = 0.0;  ///< <x> / <w>^power, in the unit of the samples
+    /// Standard error of `mean`. It is absent with fewer than 16 samples, or 8 that do not overlap, or where the weights w are
+    /// those of so few samples that (sum of w)^2 < 8 (sum of w^2): a mean of one or two events has no scatter.
+    std::optional<double> error;
     /// Statistical inefficiency g = n var(mean) / var(x), at least 1: n correlated samples are worth n / g independent ones. It
     /// is absent where no blocks are long enough; `error` is then a lower bound.
     std::optional<double> statistical_inefficiency;
     /// Whether correlations were found but no blocks are long enough for them: the longest blocks estimate more than twice the
-    /// variance that the shortest do. False where `statistical_inefficiency` is present.
+    /// variance that the shortest do, and more than chance makes of independent samples once in a thousand. False where
+    /// `statistical_inefficiency` is present.
     bool lower_bound = false;
     std::uint64_t blocks = 0;  ///< number of blocks whose scatter gave `error`
   };
   /// Estimates <x> / <w>^power. Returns nothing without samples, or where all weights are zero.
   [[nodiscard]] std::optional<Estimate> estimate(int power = 1) const { return estimate(levels_, power); }
+
+  /// Estimates <x> - <w>^2, which is the variance of w where every x is w^2. Returns nothing without samples, or where all
+  /// weights are zero; the error is absent where that of <x> / <w> is.
+  [[nodiscard]] std::optional<Estimate> estimate_of_variance() const;
 
   /// Compares <x> / <w>^power of the first part of the samples with that of the rest. The standard error is that of the rest, as
   /// blocking finds it, by which in equilibrium the first part fluctuates too: a start that has not yet come to equilibrium does
@@ -93,6 +100,10 @@ class Blocking {
   }
 
  private:
+  /// Finds the error of estimate.mean, which errs by that of the mean of (x - slope w) / scale.
+  static void find_error(Estimate& estimate, std::span<const Level> levels, double slope, double scale,
+                         std::span<const double> known);
+
   std::vector<Level> levels_;
   std::vector<Level> at_power_, at_power_before_;  ///< as they were at the last two numbers of samples that are powers of two
 };

@@ -1,5 +1,6 @@
 #include "observe/blocking.hpp"
 
+#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
 #include <algorithm>
@@ -31,6 +32,21 @@ double variance_of_mean_of(std::uint64_t count, std::span<const double> correlat
 /// statistical inefficiency s: 1 / (1 - (s - 1) / 2 B), which counts the correlations between blocks; at most 2. `of_block` is 1
 /// / B, or the variance of the mean of a block where correlations are known.
 double left_across_blocks(double s, double of_block) { return 1.0 / (1.0 - std::clamp(0.5 * (s - 1.0) * of_block, 0.0, 0.5)); }
+
+/// Returns (sum of w)^2 / (sum of w^2): how many samples there are beside which the others weigh little. Requires a mean weight
+/// other than 0.
+double heavy_samples(const Blocking::Level& single) {
+  const double n = static_cast<double>(single.blocks);
+  return n / (1.0 + single.ww / (n * single.mean_w * single.mean_w));
+}
+
+/// Returns the ratio to its mean that the scatter of so many independent Gaussian blocks exceeds once in a thousand.
+double most_by_chance(std::uint64_t blocks) {
+  const double freedom = static_cast<double>(blocks) - 1.0;
+  return boost::math::quantile(boost::math::complement(boost::math::chi_squared_distribution<double>(freedom), 1e-3)) / freedom;
+}
+
+bool is_of_many(const Blocking::Level& single) { return heavy_samples(single) >= static_cast<double>(least_blocks); }
 
 /// Returns whether blocks of `length` among n samples are long enough for a statistical inefficiency of s.
 bool long_enough(double length, double n, double s) {
@@ -81,9 +97,24 @@ std::optional<Blocking::Estimate> Blocking::estimate(std::span<const Level> leve
   const double scale = std::pow(single.mean_w, power);
   const double slope = power * single.mean_x / single.mean_w;  // x - slope * w is what the mean errs by, times scale
   Estimate estimate{single.mean_x / scale, std::nullopt, std::nullopt};
+  if (is_of_many(single)) find_error(estimate, levels, slope, scale, known);
+  return estimate;
+}
+
+std::optional<Blocking::Estimate> Blocking::estimate_of_variance() const {
+  if (levels_.empty() || levels_.front().mean_w == 0.0) return std::nullopt;
+  const Level& single = levels_.front();
+  Estimate estimate{single.mean_x - single.mean_w * single.mean_w, std::nullopt, std::nullopt};
+  if (is_of_many(single)) find_error(estimate, levels_, 2.0 * single.mean_w, 1.0, {});
+  return estimate;
+}
+
+void Blocking::find_error(Estimate& estimate, std::span<const Level> levels, double slope, double scale,
+                          std::span<const double> known) {
+  const Level& single = levels.front();
   const double n = static_cast<double>(single.blocks);
   const double of_all = variance_of_mean_of(single.blocks, known);
-  if (single.blocks < least_samples || of_all * static_cast<double>(least_blocks) > 1.0) return estimate;
+  if (single.blocks < least_samples || of_all * static_cast<double>(least_blocks) > 1.0) return;
   // The mean square of n blocks about their mean is as much too small as that is too large.
   const auto variance_told_by = [&](std::size_t level) {
     const double told = levels[level].variance_of_mean(slope);
@@ -100,13 +131,12 @@ std::optional<Blocking::Estimate> Blocking::estimate(std::span<const Level> leve
     const double s = white > 0.0 ? variance / white : 1.0;
     estimate.error = std::sqrt(variance) / std::abs(scale);
     estimate.blocks = levels[level].blocks;
-    estimate.lower_bound = told > 2.0 * first;
+    estimate.lower_bound = told > 2.0 * first && told > first * most_by_chance(estimate.blocks);
     if (!long_enough(length, n, s)) continue;
     estimate.statistical_inefficiency = std::max(1.0, s);
     estimate.lower_bound = false;
     break;
   }
-  return estimate;
 }
 
 std::optional<Halves> Blocking::halves(std::span<const Level> levels, std::span<const Level> late, std::span<const Level> early,
@@ -133,9 +163,9 @@ std::optional<Halves> Blocking::halves(std::span<const Level> levels, std::span<
   const std::optional<Estimate> before = estimate(first, power, known), after = estimate(rest, power, known);
   if (!before || !after || !after->error || !after->statistical_inefficiency) return {};
   // A few heavy samples among light ones scatter less than they should: one of a single event not at all.
-  const double samples = static_cast<double>(rest[0].blocks), mean_weight = rest[0].mean_w;
-  const double heavy = samples / (1.0 + rest[0].ww / (samples * mean_weight * mean_weight));
-  const double independent = std::min({static_cast<double>(after->blocks), samples / *after->statistical_inefficiency, heavy});
+  const double samples = static_cast<double>(rest[0].blocks);
+  const double independent =
+      std::min({static_cast<double>(after->blocks), samples / *after->statistical_inefficiency, heavy_samples(rest[0])});
   if (independent < least_for_halves) return {};
   return compared_halves(count(first) / count(levels), before->mean, after->mean, *after->error, independent);
 }
@@ -194,6 +224,28 @@ void ColumnComparison::put(Table& table, const std::string& column) const {
   ColumnHalves& found = table.halves.emplace_back(most_);
   found.column = column;
   found.at = table.columns.front().values.at(row_of_most_);
+}
+
+void note_lower_bounds(Measurement& found, bool some_are) {
+  if (!some_are) return;
+  if (!found.note.empty()) found.note += "; ";
+  found.note += "the run is too short for some correlations: errors there are lower bounds";
+}
+
+void LowerBounds::add(const Blocking::Estimate& found) {
+  if (!found.error) return;
+  ++known_;
+  bounds_ += found.lower_bound ? 1 : 0;
+}
+
+bool BlockedColumn::has_lower_bounds() const {
+  constexpr double of_sixteen_events = 0.25;
+  LowerBounds bounds;
+  for (const Blocking& row : rows_)
+    if (const std::optional<Blocking::Estimate> found = row.estimate();
+        found && found->error && *found->error <= of_sixteen_events * std::abs(found->mean))
+      bounds.add(*found);
+  return bounds.are_many();
 }
 
 void BlockedColumn::put(Table& table, const std::string& name, const std::string& unit, double factor) const {

@@ -50,6 +50,20 @@ class ColumnComparison {
   ColumnHalves most_;
 };
 
+/// Adds a remark to an observable where some errors in its tables are lower bounds (Blocking::Estimate::lower_bound).
+void note_lower_bounds(Measurement& found, bool some_are);
+
+/// Counts the rows of a column whose errors are lower bounds. A few are so by chance: neighbours, which scatter together.
+class LowerBounds {
+ public:
+  void add(const Blocking::Estimate& found);
+  /// Returns whether they are a quarter or more of the rows that have an error.
+  [[nodiscard]] bool are_many() const { return bounds_ > 0 && 4 * bounds_ >= known_; }
+
+ private:
+  std::size_t known_ = 0, bounds_ = 0;
+};
+
 /// A Blocking for every row of a column.
 class BlockedColumn {
  public:
@@ -58,6 +72,9 @@ class BlockedColumn {
   void add(std::size_t row, double x, double weight = 1.0) { rows_[row].add(x, weight); }
   [[nodiscard]] std::size_t size() const { return rows_.size(); }
   [[nodiscard]] const Blocking& row(std::size_t at) const { return rows_[at]; }
+  /// Returns whether errors of many rows are lower bounds, of those rows that are known as well as a count of sixteen independent
+  /// events: one fast disk stays in its bin for a while.
+  [[nodiscard]] bool has_lower_bounds() const;
   /// The columns `name` and `name`_error; NaN where nothing is known. The halves of rows are compared.
   void put(Table& table, const std::string& name, const std::string& unit, double factor = 1.0) const;
 

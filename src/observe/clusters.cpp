@@ -67,6 +67,7 @@ class Clusters final : public SavedObservable<Clusters> {
           std::min(std::ldexp(1.0, static_cast<int>(k) + 1) - 1.0, static_cast<double>(run_.disks.count())));
     }
     sizes_.put(table, "clusters_per_disk", "");
+    note_lower_bounds(found, sizes_.has_lower_bounds());
     found.tables.push_back(std::move(table));
     return found;
   }

@@ -69,6 +69,7 @@ class DensityProfile final : public SavedObservable<DensityProfile> {
       densities_[kind].put(table, kind == 0 ? "density" : "density" + run_.suffix(kind - 1), "1 / area",
                            areas_.empty() ? 1.0 / width_ : 1.0);
     Measurement found{.name = name(), .note = note_on_disks_outside(outside_, seen_)};
+    note_lower_bounds(found, std::ranges::any_of(densities_, &BlockedColumn::has_lower_bounds));
     found.tables.push_back(std::move(table));
     return found;
   }

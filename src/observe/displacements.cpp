@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -40,13 +41,15 @@ class NonGaussian final : public SavedObservable<NonGaussian> {
   [[nodiscard]] Measurement finish(double, const Totals&) override {
     Measurement found{.name = name()};
     Table table{.name = name()};
+    bool some_are_bounds = false;
     for (std::size_t s = 0; s < run_.species_count(); ++s) {
       if (fourth_[s].size() < 2) continue;
       if (table.columns.empty()) table.columns.push_back(lag_column(1, fourth_[s].size(), step_));
       LaggedColumn alpha("alpha_2" + run_.suffix(s), "", most_error_of_fourth);
       for (std::size_t row = 1; row < fourth_[s].size(); ++row) alpha.add(fourth_[s], row, 2, 0.5, -1.0);
-      alpha.put(table);
+      some_are_bounds = alpha.put(table) || some_are_bounds;
     }
+    note_lower_bounds(found, some_are_bounds);
     put_table(found, std::move(table));
     return found;
   }
@@ -96,6 +99,9 @@ class VanHove final : public SavedObservable<VanHove> {
       for (std::size_t at = 0; at < densities_[s].size(); ++at)
         densities_[s][at].put(table, fmt::format("density{}_{:.6g}", run_.suffix(s), std::ldexp(step_, static_cast<int>(at))),
                               "1 / length", 1.0 / width_);
+    note_lower_bounds(found, std::ranges::any_of(densities_, [](const std::vector<BlockedColumn>& of_species) {
+                        return std::ranges::any_of(of_species, &BlockedColumn::has_lower_bounds);
+                      }));
     put_table(found, std::move(table), 1);
     return found;
   }

@@ -47,6 +47,7 @@ class FlightHistogram {
     std::ranges::fill(counts_, 0);
   }
   [[nodiscard]] double width() const { return width_; }
+  [[nodiscard]] bool has_lower_bounds() const { return shares_.has_lower_bounds(); }
   [[nodiscard]] Table table(const std::string& name, const std::string& unit) const {
     Table table{.name = name, .average = Average::collisions};
     Column middles{"middle", unit, {}};
@@ -109,6 +110,7 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public RecordFollow
     } else {
       found.scalars.push_back({.name = "mean_free_path", .unit = "length", .average = Average::collisions, .note = why_no_path_});
     }
+    note_lower_bounds(found, times_.has_lower_bounds() || (why_no_path_.empty() && paths_.has_lower_bounds()));
     found.tables.push_back(times_.table("free_times", "time"));
     if (why_no_path_.empty()) found.tables.push_back(paths_.table("free_paths", "length"));
     return found;

@@ -123,6 +123,7 @@ class Hexatic final : public SavedObservable<Hexatic> {
     for (std::size_t b = 0; b < correlation_.size(); ++b) middles.values.push_back((static_cast<double>(b) + 0.5) * width_);
     table.columns.push_back(std::move(middles));
     correlation_.put(table, "g6", "");
+    note_lower_bounds(found, correlation_.has_lower_bounds());
     found.tables.push_back(std::move(table));
     return found;
   }

@@ -67,16 +67,18 @@ class WaveNumber {
         found.scalars.push_back(relaxation_time("relaxation_time" + run.suffix(s) + suffix_, self_[s], step, "F_self"));
   }
 
-  void put_columns(Table& table, const ObservedRun& run) const {
+  /// Returns whether many of the errors are lower bounds.
+  [[nodiscard]] bool put_columns(Table& table, const ObservedRun& run) const {
     LaggedColumn all("F" + suffix_, "");
     for (std::size_t row = 0; row < all_.size(); ++row) all.add(all_, row);
-    all.put(table);
+    bool some_are_bounds = all.put(table);
     for (std::size_t s = 0; s < self_.size(); ++s) {
       if (self_[s].size() == 0) continue;
       LaggedColumn self("F_self" + run.suffix(s) + suffix_, "");
       for (std::size_t row = 0; row < all_.size(); ++row) self.add(self_[s], row);
-      self.put(table);
+      some_are_bounds = self.put(table) || some_are_bounds;
     }
+    return some_are_bounds;
   }
 
   template <class Archive>
@@ -119,7 +121,9 @@ class IntermediateScattering final : public SavedObservable<IntermediateScatteri
     }
     Table table{.name = name()};
     table.columns.push_back(lag_column(0, numbers_[0].rows(), step_));
-    for (const WaveNumber& number : numbers_) number.put_columns(table, run_);
+    bool some_are_bounds = false;
+    for (const WaveNumber& number : numbers_) some_are_bounds = number.put_columns(table, run_) || some_are_bounds;
+    note_lower_bounds(found, some_are_bounds);
     found.tables.push_back(std::move(table));
     return found;
   }

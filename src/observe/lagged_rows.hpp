@@ -24,6 +24,9 @@ class LaggedRows {
   [[nodiscard]] std::optional<Blocking::Estimate> estimate(std::size_t row, int power = 1) const {
     return rows_[row].estimate(power);
   }
+  [[nodiscard]] std::optional<Blocking::Estimate> estimate_of_variance(std::size_t row) const {
+    return rows_[row].estimate_of_variance();
+  }
   [[nodiscard]] std::optional<Halves> halves(std::size_t row, int power = 1) const { return rows_[row].halves(power); }
 
   template <class Archive>
@@ -43,6 +46,7 @@ struct LaggedColumn {
   LaggedColumn(const std::string& name, const std::string& unit, double most_error = most_error_of_halves)
       : values{name, unit, {}}, errors{name + "_error", unit, {}}, comparison(most_error) {}
   void add(const std::optional<Blocking::Estimate>& found, double factor = 1.0, double offset = 0.0) {
+    if (found) lower_bounds_.add(*found);
     values.values.push_back(found ? offset + factor * found->mean : unknown);
     errors.values.push_back(found && found->error ? factor * *found->error : unknown);
   }
@@ -51,11 +55,16 @@ struct LaggedColumn {
     add(rows.estimate(row, power), factor, offset);
     comparison.add(rows.halves(row, power), factor, offset);
   }
-  void put(Table& table) {
+  /// Adds both columns to a table. Returns whether many of the errors are lower bounds.
+  [[nodiscard]] bool put(Table& table) {
     comparison.put(table, values.name);
     table.columns.push_back(std::move(values));
     table.columns.push_back(std::move(errors));
+    return lower_bounds_.are_many();
   }
+
+ private:
+  LowerBounds lower_bounds_;
 };
 
 /// Returns the column of lags of the rows from `first` on, below `end`.

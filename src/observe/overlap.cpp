@@ -38,7 +38,7 @@ class Overlap final : public SavedObservable<Overlap> {
   [[nodiscard]] Measurement finish(double, const Totals&) override {
     Measurement found{.name = name()};
     Table table{.name = name()};
-    bool is_part = false;
+    bool is_part = false, some_are_bounds = false;
     for (std::size_t s = 0; s < run_.species_count(); ++s) {
       if (followed_.channels(s) > 0)
         found.scalars.push_back(relaxation_time("relaxation_time" + run_.suffix(s), overlap_[s], step_, "the overlap"));
@@ -48,16 +48,17 @@ class Overlap final : public SavedObservable<Overlap> {
       const double count = 0.5 * static_cast<double>(followed_.channels(s));
       is_part = is_part || static_cast<std::int64_t>(count) < run_.scene.species[s].count;
       for (std::size_t row = 1; row < overlap_[s].size(); ++row) {
-        const auto q = overlap_[s].estimate(row), ratio = squares_[s].estimate(row, 2);  // <Q^2> / <Q>^2
-        const double scale = q ? count * q->mean * q->mean : 0.0;
+        const auto q = overlap_[s].estimate(row);
+        const double scale = q ? count * q->mean * q->mean : 0.0;  // of <Q^2> / <Q>^2
         overlap.add(overlap_[s], row);
-        chi.add(ratio, scale, -scale);
+        chi.add(squares_[s].estimate_of_variance(row), count);
         chi.comparison.add(in_proportion(squares_[s].halves(row, 2), 1.0, -1.0), scale);
       }
-      overlap.put(table);
-      chi.put(table);
+      some_are_bounds = overlap.put(table) || some_are_bounds;
+      some_are_bounds = chi.put(table) || some_are_bounds;
     }
     if (is_part) found.note = "chi_4 is that of the followed disks alone; take disks = N for all";
+    note_lower_bounds(found, some_are_bounds);
     put_table(found, std::move(table));
     return found;
   }

@@ -131,6 +131,7 @@ class RadialDistribution final : public SavedObservable<RadialDistribution> {
       const std::size_t a = k / kinds_, b = k % kinds_;
       if (a <= b && pairs_of(k) > 0.0) partial_[k].put(table, "g" + run_.suffix(a) + run_.suffix(b), "");
     }
+    note_lower_bounds(found, g_.has_lower_bounds() || std::ranges::any_of(partial_, &BlockedColumn::has_lower_bounds));
     found.tables.push_back(std::move(table));
     return found;
   }

@@ -33,6 +33,7 @@ class Distribution {
       for (std::size_t b = 0; b < bins_; ++b) shares_[kind].add(b, counts_[kind * bins_ + b], disks[kind]);
     std::fill(counts_.begin(), counts_.end(), 0.0);
   }
+  [[nodiscard]] bool has_lower_bounds() const { return std::ranges::any_of(shares_, &BlockedColumn::has_lower_bounds); }
   [[nodiscard]] Table table(const std::string& name, const std::string& unit, const std::string& per_unit,
                             const ObservedRun& run) const {
     Table table{.name = name};
@@ -90,6 +91,7 @@ class Speeds final : public SavedObservable<Speeds> {
       found.note =
           fmt::format("{:.2g} % are beyond the histograms, which are scaled with the temperature of the start", 100.0 * beyond);
     found.tables.push_back(speeds_.table("speeds", "length / time", "time / length", run_));
+    note_lower_bounds(found, speeds_.has_lower_bounds() || energies_.has_lower_bounds());
     found.tables.push_back(energies_.table("energies", "energy", "1 / energy", run_));
     return found;
   }

@@ -93,6 +93,7 @@ class StructureFactor final : public SavedObservable<StructureFactor> {
     }
     table.columns = {std::move(lengths), std::move(counts)};
     values_.put(table, "S", "");
+    note_lower_bounds(found, values_.has_lower_bounds());
     found.tables.push_back(std::move(table));
     return found;
   }

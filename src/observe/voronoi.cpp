@@ -87,6 +87,7 @@ class Voronoi final : public SavedObservable<Voronoi> {
     put(found, {.name = "perimeter", .unit = "length"}, perimeter_, none);
     put(found, {.name = "area_variance"}, area_variance_);
     found.tables = {neighbours(), areas()};
+    note_lower_bounds(found, fractions_.has_lower_bounds() || area_of_sides_.has_lower_bounds() || areas_.has_lower_bounds());
     return found;
   }
 

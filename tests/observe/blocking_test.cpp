@@ -108,6 +108,91 @@ TEST(Blocking, ErrorOfACorrelatedSeriesTooShortForItIsCalledALowerBound) {
   EXPECT_FALSE(scalar.integrated_correlation_time);
 }
 
+/// A mean of one event is what it was at that event, and would have no error.
+TEST(Blocking, ARatioWhoseWeightsAreThoseOfAFewSamplesHasNoError) {
+  const auto of_events = [](int events) {
+    Noise noise(5);
+    Blocking blocking;
+    for (int k = 0; k < 1024; ++k) {
+      const double weight = k % (1024 / events) == 0 ? 1.0 : 0.0;
+      blocking.add(weight * noise(), weight);
+    }
+    return blocking;
+  };
+  for (const int few : {1, 2, 4}) EXPECT_FALSE(of_events(few).estimate()->error) << few;
+  EXPECT_TRUE(of_events(1).estimate()) << "the mean is there";
+  EXPECT_FALSE(of_events(4).estimate_of_variance()->error);
+  ASSERT_TRUE(of_events(8).estimate()->error);
+  EXPECT_GT(*of_events(8).estimate()->error, 0.0);
+}
+
+/// <w^2> - <w>^2 of independent Gaussian w of variance 1 about a mean: its variance over series of n is 2 / n.
+TEST(Blocking, TellsTheErrorOfAVariance) {
+  const int n = 4096, series = 64;
+  for (const double mean : {0.25, 8.0}) {
+    double told = 0.0, sum = 0.0, squares = 0.0;
+    for (std::uint64_t s = 0; s < series; ++s) {
+      Noise noise(300 + s);
+      Blocking blocking;
+      double x = 0.0, xx = 0.0;
+      for (int k = 0; k < n; ++k) {
+        const double w = mean + noise();
+        blocking.add(w * w, w);
+        x += w / n, xx += w * w / n;
+      }
+      const auto found = blocking.estimate_of_variance();
+      ASSERT_TRUE(found);
+      EXPECT_NEAR(found->mean, xx - x * x, 1e-11);
+      told += std::pow(found->error.value(), 2) / series;
+      sum += found->mean / series, squares += found->mean * found->mean / series;
+    }
+    // Blocks of 32 of 4096, the first with B^3 > 2 n: 128 blocks tell it to sqrt(2 / 127) = 0.125, 64 series to 0.016.
+    EXPECT_NEAR(told * n / 2.0, 1.0, 5.0 * 0.016) << mean;
+    EXPECT_NEAR((squares - sum * sum) * n / 2.0, 1.0, 4.0 * std::sqrt(2.0 / 63.0)) << "which is how series scatter";
+  }
+}
+
+TEST(BlockedColumn, HasLowerBoundsWhereManyRowsAreTooShortForTheirCorrelations) {
+  const auto column = [](double phi, std::size_t others = 1) {
+    BlockedColumn rows(1 + others);
+    Noise noise(7);
+    double x = noise();
+    for (int t = 0; t < 256; ++t) {
+      rows.add(0, 20.0 + x);
+      for (std::size_t row = 1; row <= others; ++row) rows.add(row, 20.0 + noise());
+      x = phi * x + std::sqrt(1.0 - phi * phi) * noise();
+    }
+    return rows;
+  };
+  EXPECT_FALSE(column(0.0).has_lower_bounds());
+  EXPECT_TRUE(column(0.999).has_lower_bounds());
+  EXPECT_TRUE(column(0.999, 3).has_lower_bounds()) << "a quarter of the rows";
+  EXPECT_FALSE(column(0.999, 4).has_lower_bounds()) << "may be chance";
+  BlockedColumn rare(1);  // four samples in a row, of one event
+  for (int t = 0; t < 64; ++t) rare.add(0, t / 4 == 5 ? 1.0 : 0.0);
+  ASSERT_TRUE(rare.row(0).estimate()->lower_bound);
+  EXPECT_FALSE(rare.has_lower_bounds());
+  Measurement found{.name = "x", .note = "of one start"};
+  note_lower_bounds(found, false);
+  EXPECT_EQ(found.note, "of one start");
+  note_lower_bounds(found, true);
+  EXPECT_EQ(found.note, "of one start; the run is too short for some correlations: errors there are lower bounds");
+}
+
+/// Of 16 to 127 independent samples no blocks are long enough, and eight of them scatter twice as much as they should once in
+/// twenty series.
+TEST(Blocking, ChanceDoesNotMakeALowerBoundOfTheErrorOfAFewIndependentSamples) {
+  int bounds = 0, without_time = 0;
+  for (std::uint64_t s = 0; s < 2000; ++s) {
+    const auto found = autoregressive(0.0, 16 + static_cast<int>(s % 48), s).estimate();
+    bounds += found->lower_bound ? 1 : 0;
+    without_time += found->statistical_inefficiency ? 0 : 1;
+  }
+  EXPECT_GT(without_time, 1000) << "and yet they are not lower bounds";
+  // One in a thousand of those, against the shortest blocks' own scatter of sqrt(2 / 15) a few times as many.
+  EXPECT_LT(bounds, 40);
+}
+
 TEST(Blocking, FewSamplesHaveAMeanAndNoError) {
   Blocking blocking;
   EXPECT_FALSE(blocking.estimate());
