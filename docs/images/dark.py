@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the dark version of plots that are read outside of the site, where no style sheet can turn their colours.
+"""Writes the dark version of plots. On the site it stands in for the plot on dark pages, elsewhere no style sheet could turn colours.
 
     docs/images/dark.py NAME.svg...
 

@@ -4,12 +4,14 @@
     carom sweep docs/scenes/sweeps/lorentz.toml --out lorentz && docs/images/lorentz.py lorentz
 
 D is the slope of <r^2>(t) / 4 between lags of 10 and 20, for every run by itself; the mean over the runs of a gap has the error of
-their scatter. Prints the table of docs/results.md and writes lorentz.svg beside this file. Needs python3-matplotlib.
+their scatter. Prints the table of docs/results.md and writes lorentz.svg and its dark version beside this file. Needs
+python3-matplotlib.
 """
 import csv
 import math
 import pathlib
 import statistics
+import subprocess
 import sys
 
 import matplotlib
@@ -52,4 +54,6 @@ axes.errorbar([gap for gap, _, _ in found], [value / random_walk(gap) for gap, v
 axes.set_xscale("log")
 axes.set_xlabel("gap w between the scatterers, in their radii")
 axes.set_ylabel("D / D of Machta and Zwanzig")
-figure.savefig(pathlib.Path(__file__).resolve().parent / "lorentz.svg", metadata={"Date": None})
+here = pathlib.Path(__file__).resolve().parent
+figure.savefig(here / "lorentz.svg", metadata={"Date": None})
+subprocess.run([sys.executable, str(here / "dark.py"), str(here / "lorentz.svg")], check=True)

@@ -3,13 +3,15 @@
 
     carom sweep docs/scenes/sweeps/percolation.toml --out percolation && docs/images/percolation.py percolation
 
-Prints the table of docs/results.md and writes percolation.svg beside this file. Needs python3-numpy and python3-matplotlib.
+Prints the table of docs/results.md and writes percolation.svg and its dark version beside this file. Needs python3-numpy and
+python3-matplotlib.
 """
 import collections
 import csv
 import math
 import pathlib
 import statistics
+import subprocess
 import sys
 
 import matplotlib
@@ -52,4 +54,6 @@ for (count, shares), marker in zip(sorted(runs.items()), "os^"):
 axes.set_xlabel("packing fraction")
 axes.set_ylabel("share of the states that percolate")
 axes.legend(frameon=False)
-figure.savefig(pathlib.Path(__file__).resolve().parent / "percolation.svg", metadata={"Date": None})
+here = pathlib.Path(__file__).resolve().parent
+figure.savefig(here / "percolation.svg", metadata={"Date": None})
+subprocess.run([sys.executable, str(here / "dark.py"), str(here / "percolation.svg")], check=True)
