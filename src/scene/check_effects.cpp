@@ -90,7 +90,7 @@ void check_square_well(const Scene& scene) {
         fmt::format("square_well.width is {}; it is the outer diameter in units of the diameter of a disk, so it must be "
                     "above 1, such as {}",
                     well.width, keys::well_width.example));
-  if (well.depth == 0.0) return;
+  if (well.depth == 0.0 || scene.disk_count() == 0) return;
   const Radii radii = radii_of(scene);
   double largest = 2.0 * radii.largest, smallest = 2.0 * radii.smallest;  // contact distances
   for (const UnlikeContact& pair : unlike_contacts(scene))
@@ -137,7 +137,7 @@ void check_stepped_potential(const Scene& scene) {
                     fmt::format("{}.width is {}, and the step before reaches {}; put the steps in order of width, from the "
                                 "core outwards",
                                 path_of_step(k), steps[k].width, steps[k - 1].width));
-  if (scene.effects.potential_steps().empty()) return;
+  if (scene.effects.potential_steps().empty() || scene.disk_count() == 0) return;
   const Radii radii = radii_of(scene);
   double largest = 2.0 * radii.largest, smallest = 2.0 * radii.smallest;  // contact distances
   for (const UnlikeContact& pair : unlike_contacts(scene))

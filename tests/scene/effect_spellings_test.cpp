@@ -192,5 +192,11 @@ TEST(EffectSpellings, DisksMayStartWithinEachOthersWells) {
                               "[square_well]\nwidth = 1.5\ndepth = 1.0\n"));
 }
 
+TEST(EffectSpellings, PotentialsMayBeThereWithoutDisks) {
+  const std::string none = changed({{"count = 10\n", "count = 0\n"}});
+  EXPECT_NO_THROW(parse_scene(none + "[square_well]\nwidth = 1.5\ndepth = 1.0\n"));
+  EXPECT_NO_THROW(parse_scene(none + "[stepped_potential]\nsteps = [{ width = 1.5, energy = 1.0 }]\n"));
+}
+
 }  // namespace
 }  // namespace carom
