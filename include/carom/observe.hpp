@@ -61,7 +61,7 @@ struct Column {
 /// Of the rows of a column whose two halves could be compared, the one in which they differ the most.
 struct ColumnHalves {
   std::string column;
-  double at = 0.0;           ///< value of the table's first column there
+  std::vector<double> at;    ///< values of the table's first columns there: one, or x and y of a table in two dimensions
   Halves halves = {};        ///< of that row
   std::size_t compared = 0;  ///< number of rows that were compared
 };

@@ -219,11 +219,11 @@ void ColumnComparison::add(const std::optional<Halves>& halves, double factor, d
   most_.halves = *in_proportion(halves, factor, offset);
 }
 
-void ColumnComparison::put(Table& table, const std::string& column) const {
+void ColumnComparison::put(Table& table, const std::string& column, std::size_t dimensions) const {
   if (most_.compared == 0) return;
   ColumnHalves& found = table.halves.emplace_back(most_);
   found.column = column;
-  found.at = table.columns.front().values.at(row_of_most_);
+  for (std::size_t axis = 0; axis < dimensions; ++axis) found.at.push_back(table.columns.at(axis).values.at(row_of_most_));
 }
 
 void note_lower_bounds(Measurement& found, bool some_are) {

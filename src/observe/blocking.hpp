@@ -41,8 +41,8 @@ class ColumnComparison {
   explicit ColumnComparison(double most_error = most_error_of_halves) : most_error_(most_error) {}
   /// Takes the next row, whose numbers in the table are offset + factor times those of `halves`.
   void add(const std::optional<Halves>& halves, double factor = 1.0, double offset = 0.0);
-  /// Adds what was found to a table whose first column is there.
-  void put(Table& table, const std::string& column) const;
+  /// Adds what was found to a table whose first columns, which say where its rows are, are there.
+  void put(Table& table, const std::string& column, std::size_t dimensions = 1) const;
 
  private:
   double most_error_;

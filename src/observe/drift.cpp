@@ -35,6 +35,14 @@ MostDifferent most_different(const Measurement& measured) {
   return most;
 }
 
+/// Returns the place of the row: "r = 1.5", or "x = 0.25, y = 2.5".
+std::string place_of(const ColumnHalves& column, const Table& table) {
+  std::string words;
+  for (std::size_t axis = 0; axis < column.at.size(); ++axis)
+    words += fmt::format("{}{} = {:.5g}", axis == 0 ? "" : ", ", table.columns[axis].name, column.at[axis]);
+  return words;
+}
+
 bool says_drift(const std::string& note) {
   return note.find(not_in_equilibrium) != std::string::npos || note.find(not_steady) != std::string::npos;
 }
@@ -58,8 +66,8 @@ void note_drifts(std::vector<Measurement>& measured, const Effects& effects) {
       if (scalar.halves && !is_chance(*scalar.halves, numbers))
         put_before(scalar.note, words_of(*scalar.halves, is_steady_expected));
     if (const MostDifferent most = most_different(one); most.column != nullptr && !is_chance(most.column->halves, rows))
-      put_before(one.note, fmt::format("{} ({} at {} = {:.5g})", words_of(most.column->halves, is_steady_expected),
-                                       most.column->column, most.table->columns.front().name, most.column->at));
+      put_before(one.note, fmt::format("{} ({} at {})", words_of(most.column->halves, is_steady_expected), most.column->column,
+                                       place_of(*most.column, *most.table)));
   }
 }
 

@@ -19,7 +19,7 @@ inline constexpr std::string_view not_steady = "not steady";
 /// over the number of numbers that are compared. With the 0.1 % of the Z of the summary, at most one of a hundred runs in
 /// equilibrium has such a remark anywhere, however the numbers depend on each other. Where disks lose energy or grow, the remark
 /// says that the number is not steady. A table has the remark with its measurement, on the row in which its halves differ the
-/// most.
+/// most, with the place of that row, in two dimensions with both coordinates.
 void note_drifts(std::vector<Measurement>& measured, const Effects& effects);
 
 /// Returns such a remark on the Z of the summary, which only runs have whose energy is steady; empty where there is none.

@@ -363,7 +363,7 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
                                            std::sqrt(std::max(rest.variance[f], pairs.variance[f])),
                                            0.5 * static_cast<double>(count - begin)));
     }
-    for (std::size_t f = 0; f < names_.size(); ++f) comparisons[f].put(table, names_[f].name);
+    for (std::size_t f = 0; f < names_.size(); ++f) comparisons[f].put(table, names_[f].name, 2);
     return table;
   }
 

@@ -1,6 +1,7 @@
 // The first and the second half of a run compared: what drifts is named, and what is in equilibrium is not.
 
 #include "observe/drift.hpp"
+#include "observe/blocking.hpp"
 #include "observe/observed_system.hpp"
 #include "observe/pressure.hpp"
 #include "scene/observables_known.hpp"
@@ -205,7 +206,7 @@ TEST(DriftOfATable, ThresholdFallsWithTheNumberOfRows) {
     std::vector<Measurement> all(1);
     all[0].name = "a";
     all[0].tables.push_back({.name = "a", .columns = {{"r", "", {1.5}}}});
-    all[0].tables[0].halves.push_back({"g", 1.5, Halves{.error = 1.0, .probability = probability}, rows});
+    all[0].tables[0].halves.push_back({"g", {1.5}, Halves{.error = 1.0, .probability = probability}, rows});
     for (std::size_t k = 0; k < numbers; ++k) all[0].scalars.push_back({.name = "y", .halves = Halves{.error = 1.0}});
     note_drifts(all, Effects{});
     return !drifting_numbers(all).empty();
@@ -214,6 +215,18 @@ TEST(DriftOfATable, ThresholdFallsWithTheNumberOfRows) {
   EXPECT_FALSE(drifts(0.000091, 100, 0));
   EXPECT_TRUE(drifts(0.000044, 100, 7)) << "half of the threshold is for other numbers";
   EXPECT_FALSE(drifts(0.000046, 100, 7));
+}
+
+TEST(DriftOfATable, IsSaidWithBothPlacesInTwoDimensions) {
+  std::vector<Measurement> all(1);
+  all[0].name = "fields";
+  all[0].tables.push_back({.name = "fields", .columns = {{"x", "", {0.25, 0.75}}, {"y", "", {2.5, 2.5}}}});
+  ColumnComparison comparison;
+  comparison.add(Halves{.share = 0.5, .first = 1.0, .rest = 1.0, .error = 0.01, .probability = 0.5});
+  comparison.add(Halves{.share = 0.5, .first = 2.0, .rest = 1.0, .error = 0.01, .probability = 1e-9});
+  comparison.put(all[0].tables[0], "density", 2);
+  note_drifts(all, Effects{});
+  EXPECT_THAT(all[0].note, HasSubstr("(density at x = 0.75, y = 2.5)"));
 }
 
 /// What a run shows that is not in equilibrium. In `mixing` two species begin apart; in the others something changes after three
@@ -303,6 +316,9 @@ TEST(DriftOfEveryObservable, IsSaidWhereThereIsOne) {
     for (const Measurement& one : run.measurements) {
       if (one.name == "recorder") continue;
       EXPECT_THAT(drifting, Contains(testing::StartsWith(one.name)));
+      if (one.name == "fields") {
+        EXPECT_THAT(one.note, testing::ContainsRegex("\\([a-z_]+ at x = [0-9.]+, y = [0-9.]+\\)"));
+      }
     }
   }
 }
