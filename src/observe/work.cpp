@@ -170,7 +170,7 @@ class Work final : public SavedObservable<Work>, public ChangeFollower {
     sums_[of_growth] = totals.growth_energy;
     sums_[of_shear] = totals.shear_energy;
     sums_[of_bath] = totals.thermostat_energy;
-    sums_[of_collisions] = -totals.dissipated;
+    sums_[of_collisions] = 0.0 - totals.dissipated;  // no negative zero
     energies_ = totals.wall_energy;
     impulses_ = totals.wall_impulse;
     shears_ = totals.wall_shear;

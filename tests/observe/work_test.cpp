@@ -209,6 +209,8 @@ TEST(Work, OfDragIsHeatThatDisksLose) {
   expect_sum(both);
   EXPECT_LT(both.numbers.at("heat_drag"), -1.0);
   EXPECT_EQ(both.numbers.at("heat_collisions"), -both.totals.dissipated);
+  EXPECT_EQ(both.tables.at(0).columns.at(3).name, "heat_collisions");
+  EXPECT_FALSE(std::signbit(both.tables[0].columns[3].values.front())) << "nothing has been lost at the start: 0, not -0";
 }
 
 TEST(Work, HasARowForEachInstant) {
