@@ -81,6 +81,8 @@ class Domains {
   [[nodiscard]] Totals totals() const;
   [[nodiscard]] Instant now() const;
   void set_back(const Instant& time);
+  /// Tells that the whole engine, which has the disks, has begun an epoch on another clock.
+  void begin_anew() { alone_until_.reset(); }
   [[nodiscard]] const ThreadCounts& thread_counts() const { return done_; }
   [[nodiscard]] std::size_t bytes() const;
 

@@ -62,6 +62,7 @@ class ThreadedEngine final : public WrappedEngine {
   void set_back(const Instant& time) override { domains_ ? domains_->set_back(time) : engine_->set_back(time); }
   void reset_clock() override {
     alone([&] { engine_->reset_clock(); });
+    if (domains_) domains_->begin_anew();
   }
   void set_collision_rule(const CollisionFunction& rule) override {
     alone([&] { engine_->set_collision_rule(rule); });
@@ -74,6 +75,7 @@ class ThreadedEngine final : public WrappedEngine {
   }
   void take_over(const Continuation& continuation) override {
     alone([&] { engine_->take_over(continuation); });
+    if (domains_) domains_->begin_anew();
   }
   void record_events(bool on) override {
     alone([&] { engine_->record_events(on); });
@@ -99,6 +101,7 @@ class ThreadedEngine final : public WrappedEngine {
   }
   void load(LoadingArchive& archive) override {
     alone([&] { engine_->load(archive); });
+    if (domains_) domains_->begin_anew();
   }
 
  private:

@@ -393,6 +393,27 @@ TEST(Threads, GiveTheBitsOfOneWhereADiskOutrunsItsEpoch) {
   EXPECT_GT(shared.thread_counts().windows_redone, 0U);
 }
 
+/// A window that is void leaves the disks to one core up to the end of its epoch, but no longer where the clock begins anew.
+TEST(Threads, ComputeAgainAfterTheClockBeganAnew) {
+  Scene scene = lean_gas(4000, 0.2, Boundary::periodic);
+  Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+  shared.set_threads({.domains = 4, .halo = 2.5, .events_per_window = 3.0});
+  double time = 0.0;
+  while (shared.thread_counts().windows_redone == 0) {
+    ASSERT_LT(time, 100.0);
+    shared.run_until(time += 0.01);
+  }
+  alone.run_until(time);
+  expect_same(alone, shared, "where a window was void");
+  alone.reset_clock();
+  shared.reset_clock();
+  const std::uint64_t windows = shared.thread_counts().windows;
+  alone.run_until(0.5 * time);
+  shared.run_until(0.5 * time);
+  EXPECT_GT(shared.thread_counts().windows, windows);
+  expect_same(alone, shared, "on the new clock");
+}
+
 TEST(Threads, GiveTheBitsOfOneBetweenObstacles) {
   Scene scene = lean_gas(3000, 0.3, Boundary::walls);
   const double x = scene.box.upper[0] / 2.0, y = scene.box.upper[1] / 2.0;
