@@ -16,8 +16,11 @@ struct Threads {
   double events_per_window = 1.0;  ///< events of each disk in the first window between two exchanges; > 0
 };
 
-/// What sharing a simulation out has taken since Simulation::set_threads().
+/// What sharing a simulation out has taken since Simulation::set_threads(), in changed scenes too.
 struct ThreadCounts {
+  /// Adds what another part of the simulation took. `threads`, `ranks` and `domains` are then those of the part with the most.
+  void add(const ThreadCounts& other);
+
   std::size_t threads = 1;  ///< of each rank
   std::size_t ranks = 1;    ///< processes: carom/ranks.hpp
   std::size_t domains = 1;

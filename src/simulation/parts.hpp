@@ -48,6 +48,7 @@ struct Simulation::Parts {
   double smallest_radius = smallest_of(disks);
 
   Threads threads = {};
+  ThreadCounts threads_before = {};         ///< what engines before this one took since set_threads()
   bool recording = false;                   ///< events, for the user
   std::vector<Event> events = {};           ///< recorded and not yet taken, before those that the engine has
   std::vector<Event> last = {};             ///< of next_event(), kept for its memory

@@ -177,6 +177,7 @@ void Simulation::set_threads(const Threads& threads) {
   const Threads given = detail::with_domains(threads, 1);
   if (given.threads > 1 || given.domains > 1) parts_->require_shareable(why_not_threads());
   parts_->threads = given;
+  parts_->threads_before = {};
   parts_->ranks = nullptr;
   parts_->engine->set_threads(given);
 }
@@ -189,7 +190,11 @@ void Simulation::set_threads(const Threads& threads, Ranks& ranks) {
   parts_->ranks = &ranks;
   parts_->share_out();
 }
-ThreadCounts Simulation::thread_counts() const { return parts_->engine->thread_counts(); }
+ThreadCounts Simulation::thread_counts() const {
+  ThreadCounts counts = parts_->threads_before;
+  counts.add(parts_->engine->thread_counts());
+  return counts;
+}
 
 void Simulation::reset_clock() {
   parts_->engine->reset_clock();

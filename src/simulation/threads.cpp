@@ -11,6 +11,25 @@
 #include <numbers>
 #include <stdexcept>
 
+namespace carom {
+
+void ThreadCounts::add(const ThreadCounts& other) {
+  threads = std::max(threads, other.threads);
+  ranks = std::max(ranks, other.ranks);
+  domains = std::max(domains, other.domains);
+  windows += other.windows;
+  windows_redone += other.windows_redone;
+  shared_out += other.shared_out;
+  events += other.events;
+  copied_events += other.copied_events;
+  copies += other.copies;
+  copies_wrong += other.copies_wrong;
+  processor_seconds += other.processor_seconds;
+  critical_seconds += other.critical_seconds;
+}
+
+}  // namespace carom
+
 namespace carom::detail {
 
 Threads with_domains(Threads threads, int ranks) {

@@ -524,6 +524,32 @@ TEST(Threads, GoOnAfterSingleStepsAndChanges) {
   expect_same(alone, shared, "on one core again");
 }
 
+TEST(Threads, CountWhatTheyTookThroughChanges) {
+  Scene scene = lean_gas(4000, 0.5, Boundary::walls);
+  Simulation shared = make_simulation(scene);
+  shared.set_threads({.threads = 2, .domains = 4});
+  shared.run_until(1.0);
+  const ThreadCounts before = shared.thread_counts();
+  EXPECT_GT(before.windows, 2U);
+  scene.effects.collision.restitution = 0.9;
+  shared.set_effects(scene.effects);
+  EXPECT_EQ(shared.thread_counts().windows, before.windows);
+  shared.run_until(2.0);
+  const ThreadCounts after = shared.thread_counts();
+  EXPECT_GT(after.windows, before.windows + 2U);
+  EXPECT_EQ(after.shared_out, before.shared_out + 1U);
+  EXPECT_EQ(after.threads, 2U);
+  EXPECT_EQ(after.domains, 4U);
+  scene.effects.drag = Drag{.rate = 0.01};  // one core computes from now on
+  scene.effects.collision.restitution.reset();
+  shared.set_effects(scene.effects);
+  shared.run_until(2.5);
+  EXPECT_EQ(shared.thread_counts().windows, after.windows);
+  EXPECT_EQ(shared.thread_counts().domains, 4U);
+  shared.set_threads({});
+  EXPECT_EQ(shared.thread_counts().domains, 1U) << "they are those since set_threads()";
+}
+
 TEST(Threads, RunASchedule) {
   Scene scene = lean_gas(4000, 0.5, Boundary::periodic);
   scene.run.equilibrate = Run::Equilibrate{.collisions_per_disk = 4.0};
