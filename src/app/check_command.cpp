@@ -40,6 +40,12 @@ std::string start_and_engine(const Scene& scene, const Simulation& simulation) {
       simulation.engine_reason(), size(bytes), bytes / disks);
 }
 
+/// Changes themselves may scale velocities, and lift or lower disks in a potential.
+std::string conserved_words(const Scene& scene, const Effects& whole_run) {
+  std::string words = conserved(scene.box, whole_run);
+  return scene.changes.empty() || words == "nothing" ? words : "between changes: " + words;
+}
+
 std::string files(const Scene& scene) {
   const std::optional<std::uint64_t> samples = expected_samples(scene);
   std::string text = "  files       summary.json";
@@ -77,7 +83,7 @@ ExitCode check(const CheckOptions& options) {
             : fmt::format("  start       not drawn: more than {} disks; `carom run` draws them, in some {:.0f} bytes per disk\n",
                           grouped(most_disks_drawn), expected_bytes_per_disk(scene.effects));
   fmt::print("{} is a valid scene{}\n\n", scene.source, scene.title.empty() ? "" : fmt::format(": {}", scene.title));
-  fmt::print("{}  conserved   {}\n{}", describe(scene), conserved(scene.box, whole_run), start);
+  fmt::print("{}  conserved   {}\n{}", describe(scene), conserved_words(scene, whole_run), start);
   if (trial) {
     const SuggestedThreads suggested = suggested_threads(trial->simulation());
     fmt::print("  threads     {}\n  cost        {}{}\n", suggested.words, cost_words(trial->run()),

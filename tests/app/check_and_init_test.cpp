@@ -93,6 +93,23 @@ TEST(CheckCommand, SaysWhatTheRunWillCost) {
   EXPECT_TRUE(fs::is_empty(directory.path()));
 }
 
+TEST(CheckCommand, SaysWhatIsConservedBetweenChanges) {
+  const TemporaryDirectory directory;
+  const auto checked = [&](const std::string& change) {
+    write_text(directory.path() / "gas.toml",
+               "[box]\nx = [0.0, 8.0]\ny = [0.0, 8.0]\nboundary = \"periodic\"\n"
+               "[[disks]]\ncount = 5\nradius = 0.4\nmass = 1.0\npositions = \"random\"\nvelocities = { temperature = 1.0 }\n"
+               "[collision]\nrule = \"specular\"\n[run]\ntime = 2.0\n" +
+                   change);
+    return run_carom(directory.path(), {"check", "gas.toml"}).out;
+  };
+  EXPECT_THAT(checked(""), HasSubstr("\n  conserved   energy, momentum, angular momentum"));
+  EXPECT_THAT(checked("[[changes]]\ntime = 1.0\nscale_velocities = 0.5\n"),
+              HasSubstr("\n  conserved   between changes: energy, momentum, angular momentum"));
+  EXPECT_THAT(checked("[[changes]]\ntime = 1.0\nset = [\"thermostat={ temperature = 1, rate = 1 }\"]\n"),
+              HasSubstr("\n  conserved   nothing\n"));
+}
+
 TEST(CheckCommand, ResolvedSceneResolvesToItself) {
   const TemporaryDirectory directory;
   const Outcome once = run_carom(directory.path(), {"check", CAROM_SOURCE_DIR "/docs/scenes/box.toml", "--resolved"});
