@@ -28,6 +28,12 @@ constexpr double trial_seconds = 0.15;
 /// Largest packing fraction at which the disks are a fluid with a known collision rate.
 constexpr double densest_known = 0.69;
 
+/// Disks that lose energy and fall come to rest where they have so many times more collisions in a unit of time in the second
+/// half of a trial than in the first: more than in a gas whose height settles.
+constexpr double quickening = 4.0;
+/// Seconds of a run that will never come to its end: 30 years.
+constexpr double forever_seconds = 1e9;
+
 constexpr double latest = 1e15;  // later than any run gets to
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
@@ -98,6 +104,16 @@ std::optional<double> rate_by_theory(const Scene& scene, double kT) {
   return theory::collision_rate(gas, kT) * scene.box.area();
 }
 
+/// Returns the number of collisions with anything.
+double collisions_in(const Totals& totals) {
+  return static_cast<double>(totals.pair) + static_cast<double>(totals.wall) + static_cast<double>(totals.obstacle);
+}
+
+/// Whether disks may come to rest on top of each other: they lose energy, fall, and collide as often as that takes.
+bool may_come_to_rest(const Effects& effects) {
+  return effects.dissipate() && !effects.acceleration().isZero(0.0) && !(effects.collision.elastic_below.value_or(0.0) > 0.0);
+}
+
 }  // namespace
 
 Trial::Trial(const Scene& scene, const std::string& engine)
@@ -122,14 +138,20 @@ void Trial::observe(ExpectedCost& cost, const State& start, double equilibrated,
   cost.observables = scene.observe.size();
   const double all = equilibrated + measured;
   const double before = all > 0.0 ? *cost.seconds * equilibrated / all : 0.0;
-  cost.seconds = before + seconds_since(began) / std::min(done, 1.0);
+  const double with_observables = before + seconds_since(began) / std::min(done, 1.0);
+  cost.seconds = cost.quickens ? std::max(*cost.seconds, with_observables) : with_observables;
 }
 
 ExpectedCost Trial::run() {
   const State start = scene_.observe.empty() ? State{} : simulation_.state();
   const double kT = kinetic_temperature(scene_.box, scene_.effects, simulation_.disks(), simulation_.state());
   RunHooks hooks;
-  hooks.proceed = [](const Progress& progress) { return progress.loop_seconds < trial_seconds; };
+  std::optional<Progress> half;
+  hooks.proceed = [&half, halves = may_come_to_rest(scene_.effects)](const Progress& progress) {
+    const bool is_first = !half;
+    if (is_first) half = progress;
+    return progress.loop_seconds < trial_seconds || (halves && is_first);
+  };
   const RunResult result = run_schedule(simulation_, hooks);
 
   ExpectedCost cost;
@@ -152,8 +174,19 @@ ExpectedCost Trial::run() {
   if (!cost.came_to_rest.empty() || !(cost.trial_time > 0.0)) return cost;
   const std::optional<double> known = rate_by_theory(scene_, kT);
   cost.by_theory = known.has_value();
-  cost.at_least = detail::any_acting(scene_.effects, &detail::EffectTraits::changes_radii);
-  const double per_time = known.value_or(tried / cost.trial_time);
+  double per_time = known.value_or(tried / cost.trial_time);
+  double seconds_per_time = cost.trial_seconds / cost.trial_time;
+  if (half && may_come_to_rest(scene_.effects)) {
+    const Totals totals = simulation_.totals();
+    const double before = collisions_in(half->totals), lasted = cost.trial_time - half->time;
+    cost.quickens = (collisions_in(totals) - before) * half->time > quickening * before * lasted;
+    if (cost.quickens && !(lasted > 0.0)) return cost;  // time stands still
+    if (cost.quickens) {
+      per_time = static_cast<double>(totals.pair - half->totals.pair) / lasted;
+      seconds_per_time = (cost.trial_seconds - half->loop_seconds) / lasted;
+    }
+  }
+  cost.at_least = cost.quickens || detail::any_acting(scene_.effects, &detail::EffectTraits::changes_radii);
   double collisions = 0.0, time = 0.0;
   for (const Part& part : parts) {
     time += part.lasts(per_time);
@@ -161,7 +194,12 @@ ExpectedCost Trial::run() {
   }
   if (!(time < latest)) return cost;
   cost.collisions = collisions;
-  cost.seconds = tried > 0.0 ? collisions * cost.trial_seconds / tried : time * cost.trial_seconds / cost.trial_time;
+  cost.seconds = tried > 0.0 && !cost.quickens ? collisions * cost.trial_seconds / tried : time * seconds_per_time;
+  if (cost.quickens && *cost.seconds > forever_seconds) {
+    cost.collisions.reset();
+    cost.seconds.reset();
+    return cost;
+  }
   if (!scene_.observe.empty()) observe(cost, start, time - parts.back().lasts(per_time), parts.back().lasts(per_time));
   return cost;
 }
@@ -176,8 +214,10 @@ double expected_bytes_per_disk(const Effects& effects) {
 
 std::string cost_words(const ExpectedCost& cost) {
   const auto number_of = [](double collisions) {
-    return collisions < 1e6 ? counted(static_cast<std::uint64_t>(std::llround(collisions)), "collision")
-                            : fmt::format("{:.3g} million collisions", collisions / 1e6);
+    if (collisions < 1e6) return counted(static_cast<std::uint64_t>(std::llround(collisions)), "collision");
+    if (collisions < 0.9995e9) return fmt::format("{:.3g} million collisions", collisions / 1e6);
+    if (collisions < 0.9995e12) return fmt::format("{:.3g} billion collisions", collisions / 1e9);
+    return fmt::format("{:.3g} collisions", collisions);
   };
   const std::string with = cost.observables > 0 ? fmt::format(" with {}", counted(cost.observables, "observable")) : "";
   if (cost.whole)
@@ -189,9 +229,15 @@ std::string cost_words(const ExpectedCost& cost) {
                                 : fmt::format("a trial run of {} had no collision", duration(cost.trial_seconds));
   if (!cost.came_to_rest.empty())
     return fmt::format("unknown: {} by time {:.4g} ({})", cost.came_to_rest, cost.trial_time, trial);
-  if (!cost.seconds) return fmt::format("unknown ({})", trial);
-  return fmt::format("{} {}{} on this machine for {}{} ({})", cost.at_least ? "at least" : "about", duration(*cost.seconds), with,
-                     number_of(*cost.collisions), cost.by_theory ? " by kinetic theory" : "", trial);
+  const std::string at_rest =
+      cost.quickens ? fmt::format(
+                          "; by time {:.4g} disks collide at ever shorter intervals, as where they come to rest: give "
+                          "collision.elastic_below, such as {{ time = 1e-3 }}",
+                          cost.trial_time)
+                    : std::string();
+  if (!cost.seconds) return fmt::format("unknown ({}{})", trial, at_rest);
+  return fmt::format("{} {}{} on this machine for {}{} ({}{})", cost.at_least ? "at least" : "about", duration(*cost.seconds),
+                     with, number_of(*cost.collisions), cost.by_theory ? " by kinetic theory" : "", trial, at_rest);
 }
 
 }  // namespace carom

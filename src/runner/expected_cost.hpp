@@ -17,8 +17,10 @@ struct ExpectedCost {
   double trial_time = 0.0;             ///< simulated time of the trial
   std::optional<double> collisions;    ///< expected number of pair collisions; empty where the trial does not determine it
   std::optional<double> seconds;       ///< expected seconds; empty where the trial does not determine them
-  bool by_theory = false;       ///< collisions are what kinetic theory says of a uniform gas, and not as many as the trial had
-  bool at_least = false;        ///< disks grow: later times are denser than the trial, or the end is not known
+  bool by_theory = false;  ///< collisions are what kinetic theory says of a uniform gas, and not as many as the trial had
+  bool at_least = false;   ///< disks grow: later times are denser than the trial, or the end is not known; or `quickens`
+  bool quickens =
+      false;  ///< disks that lose energy and fall collided ever more often in the trial, as they do when they come to rest
   bool whole = false;           ///< the trial came to the end of the run
   std::size_t observables = 0;  ///< number of observables that `seconds` includes
   std::string came_to_rest;     ///< why the trial ended early, "collapsed"; else empty

@@ -14,6 +14,7 @@ using ::testing::AllOf;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 namespace fs = std::filesystem;
@@ -82,6 +83,10 @@ TEST(CheckCommand, SaysWhatTheRunWillCost) {
   EXPECT_THAT(cost({"--set", "run.time=1e6"}),
               ContainsRegex("\n  cost        about .* on this machine for [0-9.e+]+ million collisions by kinetic theory \\(a "
                             "trial run of [0-9.]+ m?s: .* collisions per second\\)\n"));
+  EXPECT_THAT(cost({"--set", "run.time=1e7"}),
+              ContainsRegex("\n  cost        about .* on this machine for [0-9.]+ billion collisions by"));
+  EXPECT_THAT(cost({"--set", "run.time=1e12"}),
+              ContainsRegex("\n  cost        about .* on this machine for [0-9.]+e\\+14 collisions by"));
   EXPECT_THAT(cost({"--set", "run.time=1e6", "--set", "collision.restitution=0.9999"}),
               ContainsRegex("\n  cost        about .* on this machine for .* million collisions \\("));
   const std::string observed = cost({"--set", "run.time=1e6", "--set", "observe={ temperature = true, pressure = true }"});
@@ -108,6 +113,31 @@ TEST(CheckCommand, SaysWhatIsConservedBetweenChanges) {
               HasSubstr("\n  conserved   between changes: energy, momentum, angular momentum"));
   EXPECT_THAT(checked("[[changes]]\ntime = 1.0\nset = [\"thermostat={ temperature = 1, rate = 1 }\"]\n"),
               HasSubstr("\n  conserved   nothing\n"));
+}
+
+TEST(CheckCommand, WarnsOfDisksThatComeToRestOnAnElasticFloor) {
+  const TemporaryDirectory directory;
+  write_text(directory.path() / "heap.toml",
+             "[box]\nx = [0.0, 8.0]\ny = [0.0, 16.0]\nboundary = \"walls\"\n"
+             "[[disks]]\ncount = 20\nradius = 0.4\nmass = 1.0\npositions = \"random\"\nvelocities = { temperature = 1.0 }\n"
+             "[collision]\nrule = \"specular\"\nrestitution = 0.6\n[gravity]\nacceleration = [0.0, -1.0]\n"
+             "[walls]\nbottom = { vibration = { form = \"sine\", amplitude = 0.01, frequency = 0.5 } }\n[run]\ntime = 1e4\n");
+  const auto cost = [&](const char* change) {
+    const std::string out = run_carom(directory.path(), {"check", "heap.toml", "--set", change}).out;
+    return out.substr(out.find("\n  cost "));
+  };
+  // The heap lies after some thousand collisions, and then has a million in a unit of time.
+  const char* warned =
+      "^\n  cost        (at least .*|unknown) \\(.*; by time [0-9.]+ disks collide at ever shorter intervals, as where they "
+      "come to rest: give collision.elastic_below";
+  EXPECT_THAT(cost("walls.bottom.vibration.amplitude=0.01"), ContainsRegex(warned));
+  EXPECT_THAT(cost("walls.bottom.vibration.amplitude=0"), ContainsRegex(warned));
+  EXPECT_THAT(cost("collision.elastic_below.time=1e-3"), Not(HasSubstr("shorter intervals")));
+  EXPECT_THAT(cost("collision.restitution=1"), Not(HasSubstr("shorter intervals")));
+  // On an inelastic floor the trial sees that they collapse, or that they are about to.
+  EXPECT_THAT(cost("walls.bottom.restitution=0.6"),
+              ContainsRegex("^\n  cost        (unknown: collapsed by time |(at least .*|unknown) \\(.*; by time [0-9.]+ disks "
+                            "collide at ever shorter)"));
 }
 
 TEST(CheckCommand, ResolvedSceneResolvesToItself) {
