@@ -6,8 +6,8 @@
 //
 // A ratio is the standard deviation of the values over the root mean square of their errors. Of N runs it is known to
 // 1 / sqrt(2 (N - 1)). Rows of a table that belong together (lags of one stretch, all of g(r)) share a line: the root of their
-// mean squared ratio, with the smallest and the largest. --rows prints each by itself. The last column counts the runs whose notes
-// say that errors are lower bounds.
+// mean squared ratio, with the smallest and the largest. --rows prints each by itself. The last column counts the runs whose
+// notes say that errors are lower bounds.
 
 #include "observe/run_measurements.hpp"
 
