@@ -70,16 +70,22 @@ std::string_view why_errors_are_of_one_start(const Scene& scene) {
 
 bool is_crystal(const Scene& scene) { return scene.packing_fraction() > densest_fluid && detail::radii_of(scene).equal(); }
 
-std::string_view why_error_of_Z_is_off(const Scene& scene, double collisions_per_disk) {
+std::string_view why_errors_are_lower_bounds(const Scene& scene, double collisions_per_disk) {
   constexpr double blocks = 32.0;
   const Masses masses = masses_of(scene);
   const double sum = masses.least + masses.most;
   const double share = 2.0 * (masses.least / sum) * (masses.most / sum);
   if (masses.least != masses.most && !temperature_fluctuates(scene.effects) && collisions_per_disk * share < blocks)
-    return "light and heavy disks exchange energy too slowly for this run: the error of Z is a lower "
-           "bound";
-  if (is_crystal(scene)) return "in a crystal most of the virial oscillates: the error of Z is up to 3 times too large";
+    return "light and heavy disks exchange energy too slowly for this run: errors of what depends on their speeds are lower "
+           "bounds";
   return {};
+}
+
+std::string note_on_errors(const Scene& scene, double collisions_per_disk) {
+  std::string note(why_errors_are_of_one_start(scene));
+  if (const std::string_view why = why_errors_are_lower_bounds(scene, collisions_per_disk); !why.empty())
+    note += (note.empty() ? "" : "; ") + std::string(why);
+  return note;
 }
 
 }  // namespace carom

@@ -6,6 +6,7 @@
 #include <carom/box.hpp>
 #include <carom/scene.hpp>
 
+#include <string>
 #include <string_view>
 
 namespace carom {
@@ -25,14 +26,17 @@ namespace carom {
 /// arrangement for long.
 [[nodiscard]] std::string_view why_errors_are_of_one_start(const Scene& scene);
 
+/// Returns the reason why errors of whatever depends on speeds are lower bounds, as a sentence without its stop; empty where they
+/// are not. A collision of masses m and M passes on the share 2 m M / (m + M)^2 of the difference of their mean energies. The
+/// lightest and heaviest disks exchange energy too slowly where `collisions_per_disk` of the run are fewer than 32, the least
+/// number of blocks of the summary's Z, over that share.
+[[nodiscard]] std::string_view why_errors_are_lower_bounds(const Scene& scene, double collisions_per_disk);
+
+/// Returns the remark on the errors of all numbers of a run: why_errors_are_of_one_start() and why_errors_are_lower_bounds().
+[[nodiscard]] std::string note_on_errors(const Scene& scene, double collisions_per_disk);
+
 /// Returns whether the scene has equal disks so dense (packing fraction beyond 0.72) that they rattle in a crystal. Most of the
 /// virial then oscillates, and blocks overestimate the error of its mean.
 [[nodiscard]] bool is_crystal(const Scene& scene);
-
-/// Returns the reason why the error of the summary's Z is a lower bound or too large, as a sentence without its stop; empty where
-/// it is neither. A collision of masses m and M passes on the share 2 m M / (m + M)^2 of the difference of their mean energies.
-/// The lightest and heaviest disks exchange energy too slowly where `collisions_per_disk` of the run are fewer than its blocks
-/// (at least 32) over that share. See is_crystal().
-[[nodiscard]] std::string_view why_error_of_Z_is_off(const Scene& scene, double collisions_per_disk);
 
 }  // namespace carom

@@ -24,6 +24,7 @@
 
 #include "observe/area_in_circle.hpp"
 #include "observe/blocking.hpp"
+#include "observe/equilibrium.hpp"
 #include "observe/near_pairs.hpp"
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"
@@ -207,6 +208,7 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
       remark("collisions were not recorded, so stress and heat flux are those that disks carry in flight");
     if (is_whole && run_.scene.effects.collision.roughness.value_or(-1.0) != -1.0 && spins_.size() == 0)
       remark("spins were not recorded, so heat flux and energy lost lack their energy");
+    if (is_crystal(run_.scene)) remark("in a crystal the flow swings to and fro: its errors are up to 3 times too large");
     if (stretches_.empty()) {
       found.note = "the run is too short";
       return found;

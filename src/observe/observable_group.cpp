@@ -149,10 +149,11 @@ CollisionRecords ObservableGroup::touching(const CollisionRecords& collisions) {
 std::vector<Measurement> ObservableGroup::results(double time, const Totals& totals) {
   std::vector<Measurement> measured;
   if (!started_) return measured;
-  const std::string_view of_one_start = why_errors_are_of_one_start(run_.scene);
+  const std::string on_errors =
+      note_on_errors(run_.scene, 2.0 * static_cast<double>(totals.pair) / static_cast<double>(run_.disks.count()));
   for (const auto& observable : observables_) {
     std::string& note = measured.emplace_back(observable->finish(time, totals)).note;
-    if (!of_one_start.empty()) note += (note.empty() ? "" : "; ") + std::string(of_one_start);
+    if (!on_errors.empty()) note += (note.empty() ? "" : "; ") + on_errors;
   }
   note_drifts(measured, run_.scene.effects);
   return measured;

@@ -25,7 +25,6 @@ RunMeasurements::RunMeasurements(const Simulation& simulation) : simulation_(sim
   report_.effects = names_of(scene.effects, !scene.box.periodic(0) || !scene.box.periodic(1));
   report_.disks = scene.disk_count();
   report_.packing_fraction = scene.packing_fraction();
-  report_.note_on_errors = why_errors_are_of_one_start(scene);
 }
 
 void RunMeasurements::start(const State& state) {
@@ -76,6 +75,8 @@ void RunMeasurements::look_at_heat(double time, double temperature) {
 }
 
 void RunMeasurements::measure_Z(const RunResult& result, double temperature) {
+  const double collisions_per_disk = 2.0 * static_cast<double>(report_.totals.pair) / static_cast<double>(report_.disks);
+  report_.note_on_errors = note_on_errors(simulation_.whole_scene(), collisions_per_disk);
   virial_.add(report_.time, report_.totals.virial);
   if (samples_ > 0) look_at_heat(report_.time, temperature);
   const Effects& effects = simulation_.whole_scene().effects;
@@ -88,10 +89,11 @@ void RunMeasurements::measure_Z(const RunResult& result, double temperature) {
     const double per_rate = fluctuates ? 1.0 : 1.0 / (2.0 * disks * temperature);
     if (const std::optional<double> error = series.standard_error())
       report_.Z_error = fluctuates ? *error : *error / (2.0 * disks * temperature);
-    const std::string_view is_off =
-        why_error_of_Z_is_off(simulation_.scene(), 2.0 * static_cast<double>(report_.totals.pair) / disks);
-    if (report_.note_on_errors.empty()) report_.note_on_errors = is_off;
-    if (is_off.empty()) report_.Z_note = note_on_drift_of_Z(in_proportion(series.halves(), per_rate, 1.0));
+    const bool oscillates = is_crystal(simulation_.scene());
+    if (report_.note_on_errors.empty() && oscillates)
+      report_.note_on_errors = "in a crystal most of the virial oscillates: the error of Z is up to 3 times too large";
+    if (!oscillates && why_errors_are_lower_bounds(simulation_.whole_scene(), collisions_per_disk).empty())
+      report_.Z_note = note_on_drift_of_Z(in_proportion(series.halves(), per_rate, 1.0));
     report_.reduced_pressure = 4.0 * report_.packing_fraction / std::numbers::pi * *report_.Z;
   }
 }

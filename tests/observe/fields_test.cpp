@@ -1,6 +1,7 @@
 // Fields on a grid: shares of a collision in closed form, sums over cells against the whole box, and the fluxes of a steady flow.
 
 #include "observe/observed_system.hpp"
+#include "support/scenes.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -344,6 +345,16 @@ Observed driven(const std::string& effect, const std::string& cells) {
                   "mass = 1.0\npositions = \"random\"\nvelocities = { temperature = 1.0 }\n[collision]\nrule = \"specular\"\n" +
                   effect + "[run]\ntime = 400.0\n[observe]\nfields = { every = 0.5, cells = " + cells + " }\n"),
       10.0);
+}
+
+TEST(Fields, OfACrystalSayThatErrorsOfTheFlowAreTooLarge) {
+  for (const double fraction : {0.71, 0.73}) {
+    Scene scene = gas_scene(64, fraction, Boundary::periodic);
+    scene.run.time = 1.0;
+    scene.observe = {{.name = "fields", .every = 0.1, .cells = {{2, 2}}}};
+    EXPECT_EQ(observe(scene, 0.1).of("fields").note.find("errors are up to 3 times too large") != std::string::npos,
+              fraction > 0.72);
+  }
 }
 
 TEST(Fields, OfABathHaveItsTemperatureAndNoFluxesOfCollisions) {

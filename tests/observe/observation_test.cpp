@@ -168,6 +168,20 @@ TEST(Observation, SaysBesideTheNumbersThatErrorsAreOfOneStart) {
   }
 }
 
+TEST(Observation, SaysBesideTheNumbersThatErrorsAreLowerBounds) {
+  // A collision of masses 2 and 1/2 passes on 0.32 of the difference of their energies: 100 collisions of a disk are enough.
+  for (const char* time : {"6.0", "60.0"}) {
+    std::string scene = small_mixture("pressure = { every = 0.1 }\nspeeds = { every = 0.1 }");
+    scene.replace(scene.find("6.0"), 3, time);
+    const Observed o = observe(parse_scene(scene), 1.0);
+    const bool is_short = 2.0 * static_cast<double>(o.totals.pair) / 32.0 < 100.0;
+    EXPECT_EQ(is_short, time == std::string("6.0"));
+    for (const char* name : {"pressure", "speeds"})
+      EXPECT_EQ(o.of(name).note.find("errors of what depends on their speeds are lower bounds") != std::string::npos, is_short)
+          << name;
+  }
+}
+
 TEST(Observation, NamesOfSpeciesBecomeNamesThatFilesCanHave) {
   std::string scene = small_mixture("temperature = true");
   scene.replace(scene.find("\"big\""), 5, "\"a/b, c\"");

@@ -206,5 +206,17 @@ TEST(RunMeasurements, ADeeplyOverlappingStateIsReported) {
   EXPECT_NEAR(measurements.report({}, 0.0).max_relative_overlap, 0.75, 1e-14);
 }
 
+TEST(RunMeasurements, SaysWhatTheErrorOfZIsWorth) {
+  const auto note = [](Scene scene) {
+    scene.run.time = 1.0;
+    return measure(scene).report.note_on_errors;
+  };
+  Scene mixture = mixture_scene(36, 0.4, Boundary::periodic);
+  EXPECT_EQ(note(gas_scene(36, 0.4, Boundary::periodic)), "");
+  mixture.species.front().mass = 1000.0 * mixture.species.back().mass;
+  EXPECT_THAT(note(mixture), testing::HasSubstr("light and heavy disks exchange energy too slowly"));
+  EXPECT_THAT(note(gas_scene(36, 0.73, Boundary::periodic)), testing::HasSubstr("the error of Z is up to 3 times too large"));
+}
+
 }  // namespace
 }  // namespace carom::test
