@@ -31,6 +31,10 @@ constexpr std::uint64_t fewest_collisions_on_cores = 1'000'000;  ///< in a turn:
 constexpr std::int64_t usual_disks_on_cores = 100'000;
 constexpr double latest_on_cores = 1e15;
 
+/// Returns the number of threads that compute at the same time here. More domains than these take turns, each for a whole window:
+/// threads that share a processor would interrupt each other, and find the caches full of what others need.
+std::size_t processors() { return std::max<std::size_t>(std::thread::hardware_concurrency(), 1); }
+
 /// What one turn of both has taken, in seconds.
 struct TurnOnCores {
   double alone_wall = 0.0, shared_wall = 0.0;
@@ -44,7 +48,8 @@ class RaceOnCores {
  public:
   RaceOnCores(const Scene& scene, int threads, std::uint64_t run_up, std::uint64_t turn)
       : alone_(make_simulation(scene)), shared_(make_simulation(scene)) {
-    shared_.set_threads({.threads = static_cast<std::size_t>(threads)});
+    shared_.set_threads(
+        {.threads = std::min(static_cast<std::size_t>(threads), processors()), .domains = static_cast<std::size_t>(threads)});
     for (Simulation* simulation : {&alone_, &shared_}) simulation->run_until(latest_on_cores, {.collisions = run_up});
     const double per_time = static_cast<double>(run_up) / alone_.time();
     stretch_ = static_cast<double>(turn) / per_time;
@@ -128,10 +133,14 @@ void print_heading_on_cores(int threads) {
       "every\n"
       "turn both have the same bits. `undisturbed`: how many times as fast {0} processors are that do nothing else, from "
       "processor\n"
-      "time. Events that are computed twice; memory of {0} over that of one. Medians of {1} turns.\n\n"
+      "time. Events that are computed twice; memory of {0} over that of one. Medians of {1} turns.{2}\n\n"
       "| packing fraction |         N | one core | {0:>2} cores | ratio | undisturbed | computed twice | memory |\n"
       "|------------------|-----------|----------|----------|-------|-------------|----------------|--------|\n",
-      threads, turns_on_cores);
+      threads, turns_on_cores,
+      static_cast<std::size_t>(threads) <= processors()
+          ? ""
+          : fmt::format("\nHere are {}: the parts of the box take turns on them, so that `ratio` is for so many only.",
+                        counted(processors(), "processor")));
   std::fflush(stdout);
 }
 
