@@ -350,6 +350,7 @@ class Domains {
   double part_ = 0.0;                               ///< collisions that this part was to bring
   std::uint64_t pairs_before_ = 0;                  ///< the window
   double pair_rate_ = 0.0;                          ///< collisions of pairs per time, to be expected
+  double rate_begun_with_ = 0.0;                    ///< pair_rate_ when the window began
   double longest_end_ = 0.0;                        ///< of the window, if the limit of collisions does not come before
   bool counting_ = false;                           ///< the limit of collisions may come in this window
   bool stepping_ = false;                           ///< the last events before it are processed one by one

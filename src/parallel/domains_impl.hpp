@@ -230,7 +230,7 @@ void Domains<Impact, Layout, World>::leave_to_domains() {
   const double suitable = threads_.events_per_window * disks * whole_.pacing_.time_per_event();
   window_ = window_ == 0.0 ? suitable : std::clamp(window_, suitable / 32.0, 2.0 * suitable);
   shortest_window_ = suitable / 32.0;
-  if (pair_rate_ == 0.0) pair_rate_ = disks / window_;  // more than there will be
+  if (pair_rate_ == 0.0) pair_rate_ = 2.0 * disks / window_;  // more than there will be
   ++done_.shared_out;
 }
 
@@ -311,6 +311,7 @@ template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::begin_window() {
   up_to_date_ = false;
   pairs_before_ = counts().pair;
+  rate_begun_with_ = pair_rate_;
   events_begun_with_ = done_.events;
   window_end_ = longest_end_ = std::min({now_ + window_, target_, whole_.epoch_length_});
   const double expected = pair_rate_ * (window_end_ - now_), left = static_cast<double>(pair_limit_ - pairs_before_);
@@ -488,7 +489,7 @@ void Domains<Impact, Layout, World>::decide() {
     homes += facts.homes;
     stopped = stopped || facts.stopped || facts.verdict.conflict;
     nearest = std::min(nearest, facts.verdict.nearest);
-    allowed = facts.read_at_home;
+    allowed = std::max(allowed, facts.read_at_home);
     done_.events += facts.events;
     done_.copied_events += facts.copied_events;
     done_.copies += facts.verdict.compared;
@@ -503,10 +504,13 @@ void Domains<Impact, Layout, World>::decide() {
   } else if (stopped || nearest <= allowed || homes != whole_.lines_.size() || missed) {
     ++done_.windows_redone;
     if (nearest <= allowed) window_ = std::max(0.5 * window_, shortest_window_);
+    if (missed) pair_rate_ = 2.0 * std::max(pair_rate_, static_cast<double>(pairs - pairs_before_) / (window_end_ - now_));
     next_ = Next::void_one;
   } else {
+    // After a start from a lattice there are few collisions at first, and then many: the last window alone may say too little.
+    pair_rate_ = 0.75 * rate_begun_with_;
     if (const double length = window_end_ - now_; length > 0.0 && pairs > pairs_before_ + 200)
-      pair_rate_ = static_cast<double>(pairs - pairs_before_) / length;
+      pair_rate_ = std::max(pair_rate_, static_cast<double>(pairs - pairs_before_) / length);
     hand_over_records();
     if (redraws_ != nullptr) count_redraws();
     const bool whole_window = window_end_ - now_ >= 0.99 * window_;  // not cut short by a sample or an epoch

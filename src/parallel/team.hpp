@@ -15,6 +15,7 @@ namespace carom {
 
 class Team {
  public:
+  /// Throws where the system refuses so many threads.
   explicit Team(std::size_t threads);
   Team(const Team&) = delete;
   Team& operator=(const Team&) = delete;
@@ -72,6 +73,9 @@ class Team {
       if (const std::function<void()> lead = std::exchange(team->lead_, nullptr)) lead();
     }
   };
+
+  void serve(std::size_t thread);
+  void end();
 
   std::function<void()> lead_;
   std::barrier<CallLead> barrier_;

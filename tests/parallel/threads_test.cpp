@@ -35,6 +35,23 @@ TEST(Threads, GiveTheBitsOfOneForAnyNumberOfDomains) {
     expect_same_runs(lean_gas(4000, 0.6, Boundary::periodic), {.threads = 1, .domains = domains}, 6.0, 3);
 }
 
+/// A run stops every now and then at a number of collisions, of which a lattice has few at first and then many.
+TEST(Threads, KeepTheirWindowsAfterAStartFromALattice) {
+  for (const Positions& lattice : {Positions{HexagonalLattice{}}, Positions{SquareLattice{}}})
+    for (const double packing_fraction : {0.3, 0.45, 0.6, 0.7}) {
+      Scene scene = gas_scene(4096, packing_fraction, Boundary::periodic);
+      scene.species.front().positions = lattice;
+      scene.run.time = 8.0;
+      Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+      shared.set_threads({.threads = 1, .domains = 2});
+      run_schedule(alone, {});
+      run_schedule(shared, {});
+      expect_same(alone, shared, std::to_string(packing_fraction));
+      EXPECT_GT(shared.thread_counts().windows, 20U);
+      EXPECT_LE(shared.thread_counts().windows_redone, 2U) << packing_fraction;
+    }
+}
+
 TEST(Threads, GiveTheBitsOfOneForAnyNumberOfThreads) {
   for (const std::size_t threads : {2U, 3U, 4U})
     expect_same_runs(lean_gas(6000, 0.5, Boundary::walls), {.threads = threads}, 4.0, 2);
