@@ -26,10 +26,11 @@ namespace carom {
 /// arrangement for long.
 [[nodiscard]] std::string_view why_errors_are_of_one_start(const Scene& scene);
 
-/// Returns the reason why errors of whatever depends on speeds are lower bounds, as a sentence without its stop; empty where they
-/// are not. A collision of masses m and M passes on the share 2 m M / (m + M)^2 of the difference of their mean energies. The
-/// lightest and heaviest disks exchange energy too slowly where `collisions_per_disk` of the run are fewer than 32, the least
-/// number of blocks of the summary's Z, over that share.
+/// Returns the reason why errors are lower bounds, as a sentence without its stop; empty where they are not. Requires 32 times
+/// the time of the slowest motion, the least number of blocks of the summary's Z. A collision of masses m and M passes on the
+/// share 2 m M / (m + M)^2 of the difference of their mean energies, so the lightest and heaviest disks need 32 over that share
+/// `collisions_per_disk`. Between liquid and solid (packing fractions 0.695 to 0.72 of equal disks) domains form and dissolve
+/// within about as many collisions of a disk as there are disks, by blocks of runs of 128^2 (docs/validation.md).
 [[nodiscard]] std::string_view why_errors_are_lower_bounds(const Scene& scene, double collisions_per_disk);
 
 /// Returns the remark on the errors of all numbers of a run: why_errors_are_of_one_start() and why_errors_are_lower_bounds().

@@ -116,8 +116,8 @@ void check_gap(const Scene& scene, int axis) {
   const double room = (scene.box.lengths()[axis] - diameter) / closing;
   throw Refusal(
       path_of(wall),
-      fmt::format("by time {:.6g} the moving walls would leave {:.6g} between {} and {}, but the largest disk is {:.6g} "
-                  "across; make walls.{} slower, or end before time {:.6g}",
+      fmt::format("within a time of {:.6g} the moving walls would leave {:.6g} between {} and {}, but the largest disk is {:.6g} "
+                  "across; make walls.{} slower, or let them move for less than {:.6g}",
                   time, gap, wall_names[lower], wall_names[lower + 1], diameter, wall_names[wall], room));
 }
 
@@ -165,8 +165,9 @@ void check_sweep(const Scene& scene, std::size_t w) {
     const Rectangle bounds = bounds_of(shapes[k]);
     const double room = upper ? scene.box.upper[axis] - bounds.upper[axis] : bounds.lower[axis] - scene.box.lower[axis];
     if (travel <= room) continue;
-    throw Refusal(path_of(w), fmt::format("walls.{} would run into {} at time {:.6g}; make it slower, or end before that",
-                                          wall_names[w], path_of_shape(scene.effects, k), room / inward));
+    throw Refusal(path_of(w),
+                  fmt::format("walls.{} would run into {} after a time of {:.6g}; make it slower, or let it move less long",
+                              wall_names[w], path_of_shape(scene.effects, k), room / inward));
   }
 }
 

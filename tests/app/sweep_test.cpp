@@ -140,6 +140,16 @@ TEST_F(ScenesSweep, TheTableOnTheTerminalSaysWhichColumnsItLeavesOut) {
   EXPECT_THAT(outcome.out, HasSubstr("  not shown, but in sweep.csv: energy.initial, energy.final\n"));
 }
 
+TEST_F(ScenesSweep, TheTableOnTheTerminalHasNoColumnTwice) {
+  write_text(file("seen.toml"), std::string(fifty_disks) + "[observe]\npressure = true\n");
+  write_text(file("seen-sweep.toml"), "scene = \"seen.toml\"\n[grid]\ndisks.0.radius = [0.1, 0.2]\n");
+  const Outcome outcome = carom({"sweep", "seen-sweep.toml"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::size_t first = outcome.out.find("observables.pressure.Z ");
+  ASSERT_NE(first, std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.out.find("observables.pressure.Z ", first + 1), std::string::npos) << outcome.out;
+}
+
 TEST_F(ScenesSweep, InfoTellsWhatASweepHasLeft) {
   ASSERT_EQ(sweep({"-q"}).exit_code, 0);
   const Outcome whole = carom({"info", "gas-sweep"});

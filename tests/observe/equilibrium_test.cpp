@@ -82,6 +82,16 @@ TEST(Equilibrium, ErrorsAreLowerBoundsWhereMassesExchangeEnergyMoreSlowlyThanBlo
   EXPECT_FALSE(is_lower_bound(1000.0, 10'000.0)) << "the bath gives each its energy";
 }
 
+TEST(Equilibrium, ErrorsAreLowerBoundsWhereDomainsFormAndDissolveMoreSlowlyThanBlocksLast) {
+  const auto is_lower_bound = [](double packing_fraction, double collisions_per_disk) {
+    return !why_errors_are_lower_bounds(gas_scene(64, packing_fraction, Boundary::periodic), collisions_per_disk).empty();
+  };
+  EXPECT_TRUE(is_lower_bound(0.7, 2047.0)) << "32 times 64 collisions of each disk are enough";
+  EXPECT_FALSE(is_lower_bound(0.7, 2049.0));
+  EXPECT_FALSE(is_lower_bound(0.69, 100.0)) << "a liquid";
+  EXPECT_FALSE(is_lower_bound(0.73, 100.0)) << "a crystal";
+}
+
 TEST(Equilibrium, EqualDisksAreACrystalBeyondThePackingFractionOfTheSolid) {
   for (const double fraction : {0.71, 0.73}) EXPECT_EQ(is_crystal(gas_scene(64, fraction, Boundary::periodic)), fraction > 0.72);
 }

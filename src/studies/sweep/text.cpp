@@ -64,7 +64,7 @@ std::vector<std::size_t> shown_columns(const Sweep& sweep, const SweepResults& r
     }
   for (std::size_t k = 0; columns.size() < most_columns && k < results.numbers.size(); ++k) {
     const bool wanted = !sweep.table.empty() || results.numbers[k].starts_with("observables.");
-    if (wanted) columns.push_back(k);
+    if (wanted && std::ranges::find(columns, k) == columns.end()) columns.push_back(k);
   }
   return columns;
 }

@@ -107,7 +107,7 @@ TrialResult flow(const std::string& trial, const std::string& what, double wall_
   const double time = *scene.run.time, weight = static_cast<double>(flow_disks) * acceleration;
 
   constexpr const char* balance = "balance of momentum";
-  result.curves.push_back(put_layers(result, found, "P_yy", "stress_yy", balance, what, effort.full ? 1e-3 : 0.0));
+  result.curves.push_back(put_layers(result, found, "P_yy", "stress_yy", balance, what, 1e-3));
   if (acceleration == 0.0)  // a weight along x makes it rise with y
     (void)put_layers(result, found, "P_xy", "stress_xy", balance, what, effort.full ? 3e-3 : 0.0);
   result.curves.push_back({.plot = "flow-pressure", .name = "constant", .theory = true, .x = {0.0, flow_width}, .y = {0.0, 0.0}});
@@ -139,9 +139,12 @@ TrialResult heat_conduction(const std::string& trial, const Effort& effort) {
   TrialResult result{.trial = trial};
   const std::string what = "walls at kT = 1 and 2";
   const Scene scene = channel(1.0, 2.0, effort);
-  const Found found = run(scene, effort, result);
+  FlowBalance begun;
+  std::vector<std::unique_ptr<Observable>> own;
+  own.push_back(std::make_unique<FlowBeginning>(flow_width, begun));
+  const Found found = run(scene, effort, result, std::move(own));
   (void)put_layers(result, found, "heat flux", "heat_flux_y", "balance of energy", what, effort.full ? 3e-3 : 0.0);
-  (void)put_layers(result, found, "P_yy", "stress_yy", "balance of momentum", what, effort.full ? 1e-3 : 0.0);
+  (void)put_layers(result, found, "P_yy", "stress_yy", "balance of momentum", what, 1e-3);
 
   std::vector<double> fluxes;  // in each stretch of the run, the mean of all layers
   for (const std::vector<double>& layers : in_stretches(found, "heat_flux_y")) fluxes.push_back(mean_of(layers).value);
@@ -155,6 +158,14 @@ TrialResult heat_conduction(const std::string& trial, const Effort& effort) {
                            .measured = {flux.value / through_walls, flux.error / std::abs(through_walls), flux.freedom},
                            .error_is_bound = true,
                            .largest_error = effort.full ? 0.01 : 0.0});
+  const double kept = balance_of(found.simulation.state(), flow_width).energy - begun.energy;
+  result.checks.push_back({.name = "heat that the cold wall took and the gas kept, over what the warm wall gave, " + what,
+                           .theory = "1",
+                           .source = "conservation of energy",
+                           .expected = 1.0,
+                           .measured = {-(taken[2] + kept) / taken[3], 0.0},
+                           .allowance = 1e-9,
+                           .allowance_for = "rounding"});
   return result;
 }
 
