@@ -20,6 +20,8 @@ struct Threads {
 struct ThreadCounts {
   /// Adds what another part of the simulation took. `threads`, `ranks` and `domains` are then those of the part with the most.
   void add(const ThreadCounts& other);
+  /// Returns the share of all events that one core computed alone, from 0 to 1.
+  [[nodiscard]] double share_alone() const;
 
   std::size_t threads = 1;  ///< of each rank
   std::size_t ranks = 1;    ///< processes: carom/ranks.hpp
@@ -28,6 +30,7 @@ struct ThreadCounts {
   std::uint64_t windows_redone = 0;  ///< windows that were void, and were redone by the engine alone up to the next epoch
   std::uint64_t shared_out = 0;      ///< times that the disks were shared out
   std::uint64_t events = 0;          ///< of any kind, each counted once
+  std::uint64_t events_alone = 0;    ///< events that one core computed alone: after void windows, and what does not fit
   std::uint64_t copied_events = 0;   ///< the same events once more, in halos
   std::uint64_t copies = 0;          ///< disks in halos that were compared with what their own domain says, over all windows
   std::uint64_t copies_wrong = 0;    ///< of these: those that had to be corrected

@@ -5,6 +5,8 @@
 #include "scene/effect_traits.hpp"
 #include "text/numbers.hpp"
 
+#include <carom/threads.hpp>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -70,12 +72,16 @@ std::string events_line(const Json& events) {
   return text;
 }
 
-/// Returns what sharing the run out took: "2, 403 windows of 2 domains, 1 window redone", or "1 in each of 2 processes, ...".
+/// Returns what sharing the run out took: "2, 403 windows of 2 domains, 1 window redone, 0.3 % of the events on one core alone",
+/// or "1 in each of 2 processes, ...".
 std::string threads_line(const Json& cores) {
   const auto number = [&](const char* key) { return cores.at(key).get<std::uint64_t>(); };
   const std::string processes = number("ranks") > 1 ? fmt::format(" in each of {} processes", number("ranks")) : "";
-  return fmt::format("{}{}, {} of {}, {} redone", number("threads"), processes, counted(number("windows"), "window"),
-                     counted(number("domains"), "domain"), counted(number("windows_redone"), "window"));
+  const ThreadCounts counts{.events = cores.value("events", std::uint64_t{0}),
+                            .events_alone = cores.value("events_alone", std::uint64_t{0})};
+  return fmt::format("{}{}, {} of {}, {} redone, {:.1f} % of the events on one core alone", number("threads"), processes,
+                     counted(number("windows"), "window"), counted(number("domains"), "domain"),
+                     counted(number("windows_redone"), "window"), 100.0 * counts.share_alone());
 }
 
 std::string effects_line(const Json& effects) {

@@ -119,7 +119,9 @@ std::string summary_json(const RunReport& report, const Provenance& provenance) 
                      {"domains", threads.domains},
                      {"ranks", threads.ranks},
                      {"windows", threads.windows},
-                     {"windows_redone", threads.windows_redone}};
+                     {"windows_redone", threads.windows_redone},
+                     {"events", threads.events},
+                     {"events_alone", threads.events_alone}};
   json["virial"] = number(totals.virial);
   json["wall_impulse"] = {{"left", number(totals.wall_impulse[0])},
                           {"right", number(totals.wall_impulse[1])},

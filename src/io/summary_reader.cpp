@@ -160,6 +160,8 @@ RunReport run_report_of(const Json& json) {
     report.threads.domains = count_in(cores, "domains");
     report.threads.windows = count_in(cores, "windows");
     report.threads.windows_redone = count_in(cores, "windows_redone");
+    report.threads.events = cores.value("events", std::uint64_t{0});  // which earlier versions did not write
+    report.threads.events_alone = cores.value("events_alone", std::uint64_t{0});
   }
   report.energy_initial = finite_in(json.at("energy").at("initial"));
   report.energy_final = finite_in(json.at("energy").at("final"));

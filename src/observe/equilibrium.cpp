@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 namespace carom {
@@ -19,6 +20,14 @@ bool has_walls_of_different_temperature(const Effects& effects) {
     if (first && *first != *wall.temperature) return true;
     first = wall.temperature;
   }
+  return false;
+}
+
+/// Whether walls leave no room for two disks beside each other, so that all keep their order.
+bool is_single_file(const Scene& scene) {
+  for (int axis = 0; axis < 2; ++axis)
+    if (!scene.box.is_circle && !scene.box.periodic(axis) && scene.box.lengths()[axis] < 4.0 * detail::radii_of(scene).smallest)
+      return true;
   return false;
 }
 
@@ -76,6 +85,9 @@ std::string_view why_errors_are_lower_bounds(const Scene& scene, double collisio
       packing_fraction > densest_liquid && packing_fraction <= densest_fluid && detail::radii_of(scene).equal() &&
       collisions_per_disk < blocks * static_cast<double>(scene.disk_count()))
     return "between liquid and solid, domains form and dissolve too slowly for this run: errors are lower bounds";
+  const double file = static_cast<double>(scene.disk_count()) / (2.0 * std::numbers::pi);
+  if (is_single_file(scene) && collisions_per_disk < blocks * file * file)
+    return "heat spreads too slowly among disks that cannot pass each other for this run: errors are lower bounds";
   const Masses masses = masses_of(scene);
   const double sum = masses.least + masses.most;
   const double share = 2.0 * (masses.least / sum) * (masses.most / sum);

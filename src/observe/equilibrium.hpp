@@ -31,6 +31,7 @@ namespace carom {
 /// share 2 m M / (m + M)^2 of the difference of their mean energies, so the lightest and heaviest disks need 32 over that share
 /// `collisions_per_disk`. Between liquid and solid (packing fractions 0.695 to 0.72 of equal disks) domains form and dissolve
 /// within about as many collisions of a disk as there are disks, by blocks of runs of 128^2 (docs/validation.md).
+/// Among N disks that cannot pass each other heat spreads within (N / 2 pi)^2 collisions of a disk.
 [[nodiscard]] std::string_view why_errors_are_lower_bounds(const Scene& scene, double collisions_per_disk);
 
 /// Returns the remark on the errors of all numbers of a run: why_errors_are_of_one_start() and why_errors_are_lower_bounds().

@@ -162,7 +162,8 @@ SummaryRow row_of_threads(const ThreadCounts& threads) {
                                  ? "none of them void"
                                  : fmt::format("{} of them void and computed again by one core", threads.windows_redone);
   return {"threads", number,
-          fmt::format("{} of {}, {}", counted(threads.windows, "window"), counted(threads.domains, "domain"), redone)};
+          fmt::format("{} of {}, {}; one core alone computed {:.1f} % of the events", counted(threads.windows, "window"),
+                      counted(threads.domains, "domain"), redone, 100.0 * threads.share_alone())};
 }
 
 std::string samples_remark(const RunReport& report, const Scene* scene) {

@@ -38,7 +38,11 @@ bool Domains<Impact, Layout, World>::run_until(const Instant& target, std::uint6
     // After a window that was void the whole engine stands before what the caller knows of already.
     const std::uint64_t behind = told - std::min(told, detail::all_events(counts()));
     const std::uint64_t limit = behind < no_limit - event_limit ? event_limit + behind : no_limit;
-    return serially([&] { return exact ? engine_.run_until(until, pair_limit, limit) : run_alone(until, pair_limit, limit); });
+    const std::uint64_t before = detail::all_events(whole_.totals_);
+    const bool arrived =
+        serially([&] { return exact ? engine_.run_until(until, pair_limit, limit) : run_alone(until, pair_limit, limit); });
+    done_.events_alone += detail::all_events(whole_.totals_) - before;
+    return arrived;
   };
   for (;;) {
     const Counts so_far = counts();

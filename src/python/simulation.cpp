@@ -223,6 +223,7 @@ nb::typed<nb::dict, nb::str, int> dict_of(const ThreadCounts& counts) {
   d["windows_redone"] = counts.windows_redone;
   d["shared_out"] = counts.shared_out;
   d["events"] = counts.events;
+  d["events_alone"] = counts.events_alone;
   d["copied_events"] = counts.copied_events;
   d["copies"] = counts.copies;
   d["copies_wrong"] = counts.copies_wrong;

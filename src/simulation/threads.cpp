@@ -21,11 +21,17 @@ void ThreadCounts::add(const ThreadCounts& other) {
   windows_redone += other.windows_redone;
   shared_out += other.shared_out;
   events += other.events;
+  events_alone += other.events_alone;
   copied_events += other.copied_events;
   copies += other.copies;
   copies_wrong += other.copies_wrong;
   processor_seconds += other.processor_seconds;
   critical_seconds += other.critical_seconds;
+}
+
+double ThreadCounts::share_alone() const {
+  const auto alone = static_cast<double>(events_alone), shared = static_cast<double>(events);
+  return alone > 0.0 ? alone / (alone + shared) : 0.0;
 }
 
 }  // namespace carom

@@ -152,14 +152,21 @@ TEST(Summary, EffectsTellWhatTheyGaveAndTook) {
 TEST(Summary, TellsOfSeveralCoresOnlyWhereTheyShared) {
   RunReport report = hand_made_report(scene_of(2, 2));
   EXPECT_FALSE(summary_of(report).contains("cores"));
-  report.threads = {.threads = 2, .domains = 4, .windows = 50, .windows_redone = 3};
+  report.threads = {.threads = 2, .domains = 4, .windows = 50, .windows_redone = 3, .events = 900, .events_alone = 100};
   const Json json = summary_of(report);
-  EXPECT_EQ(json["cores"], (Json{{"threads", 2}, {"domains", 4}, {"ranks", 1}, {"windows", 50}, {"windows_redone", 3}}));
+  EXPECT_EQ(json["cores"], (Json{{"threads", 2},
+                                 {"domains", 4},
+                                 {"ranks", 1},
+                                 {"windows", 50},
+                                 {"windows_redone", 3},
+                                 {"events", 900},
+                                 {"events_alone", 100}}));
   const RunReport read = run_report_of(json);
   EXPECT_EQ(read.threads.threads, 2U);
   EXPECT_EQ(read.threads.domains, 4U);
   EXPECT_EQ(read.threads.windows, 50U);
   EXPECT_EQ(read.threads.windows_redone, 3U);
+  EXPECT_DOUBLE_EQ(read.threads.share_alone(), 0.1);
 }
 
 TEST(Summary, ReasonsToStopHaveNames) {

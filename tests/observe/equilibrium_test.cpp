@@ -92,6 +92,18 @@ TEST(Equilibrium, ErrorsAreLowerBoundsWhereDomainsFormAndDissolveMoreSlowlyThanB
   EXPECT_FALSE(is_lower_bound(0.73, 100.0)) << "a crystal";
 }
 
+TEST(Equilibrium, ErrorsAreLowerBoundsWhereDisksThatCannotPassEachOtherSpreadHeatMoreSlowlyThanBlocksLast) {
+  Scene scene = gas_scene(63, 0.1, Boundary::walls);
+  scene.box.boundary[0] = Boundary::periodic;
+  const auto is_lower_bound = [&](double height_over_radius, double collisions_per_disk) {
+    scene.box.upper.y() = scene.box.lower.y() + height_over_radius * scene.species.front().radius;
+    return !why_errors_are_lower_bounds(scene, collisions_per_disk).empty();
+  };
+  EXPECT_TRUE(is_lower_bound(3.9, 3200.0)) << "32 (63 / 2 pi)^2 = 3217 collisions of each disk are enough";
+  EXPECT_FALSE(is_lower_bound(3.9, 3230.0));
+  EXPECT_FALSE(is_lower_bound(4.1, 10.0)) << "two pass each other";
+}
+
 TEST(Equilibrium, EqualDisksAreACrystalBeyondThePackingFractionOfTheSolid) {
   for (const double fraction : {0.71, 0.73}) EXPECT_EQ(is_crystal(gas_scene(64, fraction, Boundary::periodic)), fraction > 0.72);
 }

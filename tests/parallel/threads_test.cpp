@@ -49,6 +49,7 @@ TEST(Threads, KeepTheirWindowsAfterAStartFromALattice) {
       expect_same(alone, shared, std::to_string(packing_fraction));
       EXPECT_GT(shared.thread_counts().windows, 20U);
       EXPECT_LE(shared.thread_counts().windows_redone, 2U) << packing_fraction;
+      EXPECT_LT(shared.thread_counts().share_alone(), 0.5) << packing_fraction;
     }
 }
 
