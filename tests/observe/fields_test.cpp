@@ -1,7 +1,7 @@
 // Fields on a grid: shares of a collision in closed form, sums over cells against the whole box, and the fluxes of a steady flow.
 
 #include "observe/observed_system.hpp"
-#include "support/scenes.hpp"
+#include "support/systems.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
