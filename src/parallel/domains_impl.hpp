@@ -502,22 +502,22 @@ void Domains<Impact, Layout, World>::decide() {
   const std::uint64_t happened = done_.events;
   allowed += fastest_ * (window_end_ - now_) + half_width_;
   const std::uint64_t pairs = counts().pair;
+  const double length = window_end_ - now_;
+  const double rate = length > 0.0 ? static_cast<double>(pairs - pairs_before_) / length : 0.0;
   const bool missed = pairs > pair_limit_ || (pairs == pair_limit_ && !at_limit_);  // the time of the last collision is not known
   if (has_failed()) {
     next_ = Next::failed;
   } else if (stopped || nearest <= allowed || homes != whole_.lines_.size() || missed) {
     ++done_.windows_redone;
     if (nearest <= allowed) window_ = std::max(0.5 * window_, shortest_window_);
-    if (missed) pair_rate_ = 2.0 * std::max(pair_rate_, static_cast<double>(pairs - pairs_before_) / (window_end_ - now_));
+    if (missed) pair_rate_ = 2.0 * std::max(pair_rate_, rate);
     next_ = Next::void_one;
   } else {
     // After a start from a lattice there are few collisions at first, and then many: the last window alone may say too little.
-    pair_rate_ = 0.75 * rate_begun_with_;
-    if (const double length = window_end_ - now_; length > 0.0 && pairs > pairs_before_ + 200)
-      pair_rate_ = std::max(pair_rate_, static_cast<double>(pairs - pairs_before_) / length);
+    pair_rate_ = std::max(0.75 * rate_begun_with_, pairs > pairs_before_ + 200 ? rate : 0.0);
     hand_over_records();
     if (redraws_ != nullptr) count_redraws();
-    const bool whole_window = window_end_ - now_ >= 0.99 * window_;  // not cut short by a sample or an epoch
+    const bool whole_window = length >= 0.99 * window_;  // not cut short by a sample or an epoch
     now_ = window_end_;
     adapt_window(nearest - allowed, whole_window);
     const bool on_the_way = now_ != whole_.epoch_length_ && now_ != target_;
