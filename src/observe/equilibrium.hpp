@@ -26,12 +26,12 @@ namespace carom {
 /// arrangement for long.
 [[nodiscard]] std::string_view why_errors_are_of_one_start(const Scene& scene);
 
-/// Returns the reason why errors are lower bounds, as a sentence without its stop; empty where they are not. Requires 32 times
-/// the time of the slowest motion, the least number of blocks of the summary's Z. A collision of masses m and M passes on the
-/// share 2 m M / (m + M)^2 of the difference of their mean energies, so the lightest and heaviest disks need 32 over that share
-/// `collisions_per_disk`. Between liquid and solid (packing fractions 0.695 to 0.72 of equal disks) domains form and dissolve
-/// within about as many collisions of a disk as there are disks, by blocks of runs of 128^2 (docs/validation.md).
-/// Among N disks that cannot pass each other heat spreads within (N / 2 pi)^2 collisions of a disk.
+/// Returns the reason why errors are lower bounds, as a sentence without its stop; empty where the run lasts 32 times as long as
+/// its slowest motion. The summary's Z has 32 blocks or more. The slowest motion, in collisions of a disk, lasts for:
+/// - disks of masses m to M: (m + M)^2 / 2 m M. A collision passes on the inverse of it of the difference of their mean energies;
+/// - N equal disks between liquid and solid (packing fractions 0.695 to 0.72): N. Domains of 128^2 disks form and dissolve within
+///   about as many (docs/validation.md);
+/// - N disks that cannot pass each other: (N / 2 pi)^2, within which heat spreads among them.
 [[nodiscard]] std::string_view why_errors_are_lower_bounds(const Scene& scene, double collisions_per_disk);
 
 /// Returns the remark on the errors of all numbers of a run: why_errors_are_of_one_start() and why_errors_are_lower_bounds().

@@ -139,7 +139,7 @@ void print_heading_on_cores(int threads) {
       threads, turns_on_cores,
       static_cast<std::size_t>(threads) <= processors()
           ? ""
-          : fmt::format("\nHere are {}: the parts of the box take turns on them, so that `ratio` is for so many only.",
+          : fmt::format("\nThis machine has {}, on which the parts of the box take turns; `ratio` is that of so many cores.",
                         counted(processors(), "processor")));
   std::fflush(stdout);
 }
@@ -159,7 +159,7 @@ int threads_of(const BenchOptions& options) {
   for (const std::int64_t n : options.disks)
     if (n < 16 || n > 100'000'000) throw UsageError(fmt::format("--disks {}: it can be 16 to 100,000,000", n));
   const std::string& text = *options.threads;
-  if (text.empty()) return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 2, 16);
+  if (text.empty()) return std::clamp(static_cast<int>(processors()), 2, 16);
   int threads = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), threads);
   if (error != std::errc{} || end != text.data() + text.size() || threads < 2 || threads > 32)

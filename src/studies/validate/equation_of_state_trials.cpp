@@ -161,14 +161,21 @@ class RareMomentum final : public Observable {
   Blocking& pressure_;
 };
 
+/// Calls one_run(k, effort) for k = 0 to count - 1, by all processors. Throws Interrupted.
+void share_runs(std::size_t count, const Effort& effort, const std::function<void(std::size_t k, const Effort& mine)>& one_run) {
+  const auto work = [&](std::size_t k, const std::function<bool()>& go_on) {
+    one_run(k, {.full = effort.full, .seed = effort.seed, .proceed = go_on});
+  };
+  if (!in_threads(count, std::max(1U, std::thread::hardware_concurrency()), effort.proceed, work)) throw Interrupted{};
+}
+
 /// Checks the pressure of a small system to five digits, by independent runs that all processors share.
 TrialResult five_digits(const std::string& trial, const theory::ReferencePressure& known, const Effort& effort) {
   constexpr std::size_t runs = 16;
   constexpr double collisions = 1.05e9, digits = 1e-5;
   std::array<Measured, runs> found{};
   std::array<TrialResult, runs> done;
-  const auto one_run = [&](std::size_t k, const std::function<bool()>& go_on) {
-    const Effort mine{.full = effort.full, .seed = effort.seed, .proceed = go_on};
+  share_runs(runs, effort, [&](std::size_t k, const Effort& mine) {
     const Gas gas{
         .disks = known.disks, .packing_fraction = known.packing_fraction, .collisions = collisions, .equilibrate = 2000.0};
     const double rate = theory::disk_collision_rate(theory::kolafa_rottner(known.packing_fraction));
@@ -179,8 +186,7 @@ TrialResult five_digits(const std::string& trial, const theory::ReferencePressur
     (void)run(scene_of(gas, mine.seed_of(k)), mine, done[k], std::move(own));
     const auto estimate = pressure.estimate();
     found[k] = {estimate->mean, estimate->error.value_or(NAN)};
-  };
-  if (!in_threads(runs, std::max(1U, std::thread::hardware_concurrency()), effort.proceed, one_run)) throw Interrupted{};
+  });
   TrialResult result{.trial = trial};
   Measured mean{0.0, 0.0};
   double squares = 0.0;
@@ -246,8 +252,7 @@ TrialResult transition(const std::string& trial, const theory::ReferencePressure
   constexpr double collisions = 4.5e8, equilibrate = 50'000.0;
   std::array<double, 2 * runs_per_start> found{};
   std::array<TrialResult, found.size()> done;
-  const auto one_run = [&](std::size_t k, const std::function<bool()>& go_on) {
-    const Effort mine{.full = effort.full, .seed = effort.seed, .proceed = go_on};
+  share_runs(found.size(), effort, [&](std::size_t k, const Effort& mine) {
     Change compressed;
     if (k >= runs_per_start)
       compressed = [&](State& start) {
@@ -262,8 +267,7 @@ TrialResult transition(const std::string& trial, const theory::ReferencePressure
                   .observe = {{.name = "pressure"}},
                   .equilibrate = equilibrate};
     found[k] = run(scene_of(gas, mine.seed_of(k)), mine, done[k], {}, compressed).measured("pressure", "reduced").value;
-  };
-  if (!in_threads(found.size(), std::max(1U, std::thread::hardware_concurrency()), effort.proceed, one_run)) throw Interrupted{};
+  });
   TrialResult result{.trial = trial};
   for (const std::size_t k : {std::size_t{0}, runs_per_start}) result.scenes.push_back(done[k].scenes.front());
   const std::string what = fmt::format("{} disks at packing fraction {:.3f}", known.disks, known.packing_fraction);
