@@ -43,6 +43,12 @@ ${read(own, "page/page.html")}<script type="application/json" id="ownScenes">[]<
 ${inScript(read(own, "page/worker.js"))}</script>
 <script type="text/plain" id="wasm">${wasm}</script>
 <script>
+/* This is delaunator.
+
+${read(root, "src/pages/delaunator/LICENSE")}*/
+${inScript(read(root, "src/pages/delaunator/delaunator.min.js"))}
+</script>
+<script>
 (() => {
 ${scripts.map((name) => inScript(read(root, name)).replace(/^"use strict";\n/m, "")).join("\n")}
 })();

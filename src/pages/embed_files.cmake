@@ -1,9 +1,10 @@
-# Compiles the files of a page into the library: its style, its scripts and the plotting library. A changed file is
+# Compiles the files of a page into the library: its style, its scripts and the libraries that they use. A changed file is
 # embedded again by the next build.
 #
 # Included by CMakeLists.txt, it adds the command; run by that command, as a script, it writes OUTPUT.
 set(carom_page_files page/page.css page/errors.js page/theme.js page/numbers.js page/traces.js page/layout.js
     page/export.js page/embedded.js page/field_film.js page/page.js plotly/plotly-basic.min.js plotly/LICENSE
+    delaunator/delaunator.min.js delaunator/LICENSE
     player/player.html player/player.css player/run.html player/recording.js player/flights.js player/samples.js player/measures.js
     player/hexatic.js player/scales.js player/palettes.js player/settings.js player/view.js player/trails.js player/raster.js player/drawing.js
     player/readings.js player/legend.js player/plots.js player/clock.js player/controls.js player/keyboard.js player/pointer.js

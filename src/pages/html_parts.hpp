@@ -9,7 +9,7 @@
 
 namespace carom::detail {
 
-/// A file of a page (style, script, plotting library) as it was when the library was built; embed_files.cmake writes them.
+/// A file of a page (style, script, library) as it was when the library was built; embed_files.cmake writes them.
 struct EmbeddedFile {
   std::string_view name;                     ///< its path below src/pages
   std::span<const std::string_view> pieces;  ///< its bytes, cut because compilers limit the length of a literal

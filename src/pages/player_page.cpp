@@ -74,6 +74,8 @@ std::string player_page(const PlayerData& data, const PlayerKind& kind) {
                      "</script>\n</head>\n" + body_of(kind);
   text += "<script type=\"application/json\" id=\"description\">" + in_script(data.description) + "</script>\n";
   text += "<script type=\"text/plain\" id=\"columns\">" + detail::base64(data.columns) + "</script>\n";
+  text += "<script>\n/* This is delaunator.\n\n" + embedded_text("delaunator/LICENSE") + "*/\n" +
+          embedded_text("delaunator/delaunator.min.js") + "</script>\n";
   for (const std::string_view name : scripts_of(kind)) text += "<script>\n" + embedded_text(name) + "</script>\n";
   return text + "</body>\n</html>\n";
 }

@@ -138,11 +138,11 @@ TEST(BrowserPlayer, ADiskCrossesTheEdgesOfAShearedBoxWhereItShould) {
   EXPECT_EQ(data(visit, "apart"), "rounding");
 }
 
-/// Forty disks in a box, which is all that it says.
-Scene forty_disks_in(const std::string& box, const std::string& more) {
+/// Disks in a box, which is all that it says.
+Scene disks_in(const std::string& box, const std::string& more, int count = 40) {
   return parse_scene(
-      "[box]\n" + box +
-      "\n[[disks]]\ncount = 40\nradius = 0.3\nmass = 1.0\npositions = \"random\"\nvelocities = { temperature = 1.0 }\n"
+      "[box]\n" + box + "\n[[disks]]\ncount = " + std::to_string(count) +
+      "\nradius = 0.3\nmass = 1.0\npositions = \"random\"\nvelocities = { temperature = 1.0 }\n"
       "[collision]\nrule = \"specular\"\n[run]\ntime = 8.0\nsample_every = 0.25\nseed = 5\n[output]\nevents = true\n" +
       more);
 }
@@ -150,8 +150,10 @@ Scene forty_disks_in(const std::string& box, const std::string& more) {
 TEST(BrowserPlayer, FindsTheCellsOfPeriodicShearedAndCircularBoxes) {
   if (!has_browser()) GTEST_SKIP() << no_browser;
   const std::string periodic = "x = [0.0, 10.0]\ny = [-4.0, 4.0]\nboundary = \"periodic\"";
-  for (const Scene& scene : {forty_disks_in(periodic, ""), forty_disks_in(periodic, "[shear]\nrate = 0.3\n"),
-                             forty_disks_in("circle = { centre = [1.0, 2.0], radius = 4.5 }", "")}) {
+  const std::string flat = "x = [0.0, 30.0]\ny = [0.0, 2.5]\nboundary = \"periodic\"";
+  for (const Scene& scene : {disks_in(periodic, ""), disks_in(periodic, "[shear]\nrate = 0.3\n"),
+                             disks_in("circle = { centre = [1.0, 2.0], radius = 4.5 }", ""), disks_in(flat, "", 3),
+                             disks_in(flat, "[shear]\nrate = 0.3\n", 3)}) {
     const Visit visit = played(scene, script("page_checks.js") + script("player_cells.js") + "noteChecks();\n");
     expect_clean(visit);
     EXPECT_EQ(data(visit, "failures"), "");

@@ -182,6 +182,12 @@ TEST_F(PlayerDataTest, TitlesCannotEndTheScriptThatHoldsThem) {
     EXPECT_EQ(page.find(outside), std::string::npos) << outside;
 }
 
+TEST_F(PlayerDataTest, APageRepeatsTheLicenceOfTheLibraryInIt) {
+  const std::string page = player_page(packed({}));
+  for (const char* const name : {"delaunator/delaunator.min.js", "delaunator/LICENSE"})
+    EXPECT_TRUE(page.find(detail::embedded_text(name)) != std::string::npos) << name;
+}
+
 TEST(SlowPlayerPage, OfAThousandDisksAndAHundredThousandCollisionsTakesLessThanFiveMegabytes) {
   const TemporaryDirectory directory;
   record(parse_scene(packed_gas, "gas",

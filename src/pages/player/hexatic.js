@@ -9,122 +9,97 @@ const neighbourKind = (order, i) => Math.min(Math.max(order.neighbours[i], 4), 8
 
 const cellsOffered = disks >= 3 && disks <= 5000;
 
-/// Writes the real and imaginary part of psi, its size, and the number of neighbours of every disk into `order`; 0 neighbours where a
-/// wall, or the rim of a circular box, cuts the cell off. A cell is the box round its disk, cut by the bisector to one neighbour after
-/// the other; these are searched in square cells of about two disks, ring after ring, until the rest is too far away to cut. Under
-/// shear the rows of square cells above the box are displaced by whole cells, and disks by their part of one besides.
-function findOrder(moment, order) {
-  const left = box.periodic[0] ? box.lower[0] : moment.walls[0];
-  const bottom = box.periodic[1] ? box.lower[1] : moment.walls[2];
-  const width = box.periodic[0] ? box.lengths[0] : moment.walls[1] - left;
-  const height = box.periodic[1] ? box.lengths[1] : moment.walls[3] - bottom;
-  const side = Math.sqrt((2 * width * height) / disks);
-  const across = Math.max(1, Math.floor(width / side));
-  const up = Math.max(1, Math.floor(height / side));
-  const head = new Int32Array(across * up).fill(-1);
-  const next = new Int32Array(disks);
-  const cell = (value, from, length, count) => Math.min(Math.max(Math.floor(((value - from) / length) * count), 0), count - 1);
-  for (let i = 0; i < disks; ++i) {
-    const at = cell(moment.x[i], left, width, across) + across * cell(moment.y[i], bottom, height, up);
-    next[i] = head[at];
-    head[at] = i;
+/// Returns the centres of the circles through the corners of triangles, which are the corners of Voronoi cells: [x, y, x, y, ...].
+function circleCentres(triangles, places) {
+  const centres = new Float64Array((2 * triangles.length) / 3);
+  for (let t = 0; t < centres.length; t += 2) {
+    const i = 2 * triangles[1.5 * t];
+    const j = 2 * triangles[1.5 * t + 1];
+    const k = 2 * triangles[1.5 * t + 2];
+    const [ax, ay, bx, by] = [places[j] - places[i], places[j + 1] - places[i + 1], places[k] - places[i], places[k + 1] - places[i + 1]];
+    const [a, b, area] = [ax * ax + ay * ay, bx * bx + by * by, ax * by - ay * bx];
+    centres[t] = places[i] + (a * by - b * ay) / (2 * area);
+    centres[t + 1] = places[i + 1] + (b * ax - a * bx) / (2 * area);
   }
-  const step = Math.min(width / across, height / up);
-  const slid = Math.round((moment.displacement / width) * across);  // cells by which a row above is displaced, to the nearest
-  const most = 64;  // corners of a cell
-  const wall = -1;  // the label of a side that is one
-  let x = new Float64Array(most), y = new Float64Array(most), label = new Int32Array(most), count = 0;
-  let newX = new Float64Array(most), newY = new Float64Array(most), newLabel = new Int32Array(most);
-  const toX = [];
-  const toY = [];
-  /// Cuts away what is nearer to (dx, dy) than to 0. Side k runs from corner k to the next.
-  const cut = (dx, dy) => {
-    const half = 0.5 * (dx * dx + dy * dy);
-    const slack = 1e-12 * half;
-    const beyond = (k) => x[k] * dx + y[k] * dy - half;
-    let outside = 0;
-    for (let k = 0; k < count; ++k) if (beyond(k) > slack) ++outside;
-    if (outside === 0) return;
-    const mark = toX.push(dx) - 1;
-    toY.push(dy);
-    let kept = 0;
-    const put = (px, py, name) => {
-      newX[kept] = px;
-      newY[kept] = py;
-      newLabel[kept++] = name;
-    };
-    for (let k = 0; k < count && kept < most - 2; ++k) {
-      const to = (k + 1) % count;
-      const a = beyond(k);
-      const b = beyond(to);
-      if (a <= slack) put(x[k], y[k], label[k]);
-      if (a <= slack !== b <= slack) {
-        const share = a / (a - b);
-        put(x[k] + share * (x[to] - x[k]), y[k] + share * (y[to] - y[k]), a <= slack ? mark : label[k]);
-      }
-    }
-    [x, newX] = [newX, x];
-    [y, newY] = [newY, y];
-    [label, newLabel] = [newLabel, label];
-    count = kept;
-  };
-  for (let i = 0; i < disks; ++i) {
-    const mx = moment.x[i];
-    const my = moment.y[i];
-    const west = box.periodic[0] ? -2 * width : left - mx;
-    const east = box.periodic[0] ? 2 * width : left + width - mx;
-    const south = box.periodic[1] ? -2 * height : bottom - my;
-    const north = box.periodic[1] ? 2 * height : bottom + height - my;
-    x.set([west, east, east, west]);
-    y.set([south, south, north, north]);
-    label.set([wall, wall, wall, wall]);
-    count = 4;
-    toX.length = toY.length = 0;
-    const cx = cell(mx, left, width, across);
-    const cy = cell(my, bottom, height, up);
-    const farthest = () => {
-      let square = 0;
-      for (let k = 0; k < count; ++k) square = Math.max(square, x[k] * x[k] + y[k] * y[k]);
-      return Math.sqrt(square);
-    };
-    const rings = 2 * Math.max(across, up) + 2;
-    for (let ring = 0; ring <= rings && (ring - (moment.displacement === 0 ? 1 : 1.5)) * step <= 2 * farthest(); ++ring) {
-      for (let b = -ring; b <= ring; ++b) {
-        for (let a = -ring; a <= ring; a += Math.abs(b) === ring ? 1 : Math.max(2 * ring, 1)) {
-          const boxY = Math.floor((cy + b) / up);
-          const column = cx + a - boxY * slid;
-          const boxX = Math.floor(column / across);
-          if ((!box.periodic[0] && boxX !== 0) || (!box.periodic[1] && boxY !== 0)) continue;
-          for (let j = head[column - boxX * across + across * (cy + b - boxY * up)]; j >= 0; j = next[j]) {
-            if (j === i && boxX === 0 && boxY === 0) continue;
-            cut(moment.x[j] + boxX * width + boxY * moment.displacement - mx, moment.y[j] + boxY * height - my);
-          }
+  return centres;
+}
+
+/// Writes the real and imaginary part of psi, its size, and the number of neighbours of every disk into `order`; 0 neighbours where a
+/// wall, or the rim of a circular box, cuts the cell off. Cells follow from the Delaunay triangulation of the disks and of images
+/// outside the box: copies where it is periodic, those above a sheared one displaced, and reflections at walls, so that a disk and
+/// its own reflection have the wall between them. All lengths are in mean spacings of the disks.
+function findOrder(moment, order) {
+  const [left, right] = box.periodic[0] ? [box.lower[0], box.upper[0]] : moment.walls;
+  const [bottom, top] = box.periodic[1] ? [box.lower[1], box.upper[1]] : [moment.walls[2], moment.walls[3]];
+  const spacing = Math.sqrt(((right - left) * (top - bottom)) / disks);
+  const width = (right - left) / spacing;
+  const height = (top - bottom) / spacing;
+  const displacement = moment.displacement / spacing;
+  // Along an axis, a corner of a cell is at most half a box outside, and at most half a box from the nearest image of any disk. Between
+  // walls it is inside, and at most a box from that image. Images up to a box outside are all that count, under shear up to a diagonal.
+  const isSheared = displacement !== 0;
+  const [reachX, reachY] = [width, height].map((length, axis) => (isSheared ? Infinity : box.periodic[axis] ? length / 2 : length));
+  const [mostX, mostY] = [width, height].map((length) => 1.001 * (isSheared ? Math.hypot(width, height) : length));
+
+  /// Finds the cells from images up to `margin` outside the box. Returns whether these are enough: whether the circle round each corner
+  /// of a cell through its disk, which must have no other centre in it, is where all images are.
+  const findCells = (margin) => {
+    const marginX = Math.min(margin, mostX);
+    const marginY = Math.min(margin, mostY);
+    const isBeyond = (x, y, dx, dy) => x - dx < -marginX || x + dx > width + marginX || y - dy < -marginY || y + dy > height + marginY;
+    const places = [];
+    for (let i = 0; i < disks; ++i) places.push((moment.x[i] - left) / spacing, (moment.y[i] - bottom) / spacing);
+    const isReflected = new Array(disks).fill(false);
+    for (let b = -Math.ceil(marginY / height); b * height < height + marginY; ++b) {
+      const aside = b * displacement;
+      for (let a = Math.floor((-marginX - aside) / width); a * width < width + marginX - aside; ++a) {
+        const turnsX = !box.periodic[0] && a % 2 !== 0;
+        const turnsY = !box.periodic[1] && b % 2 !== 0;
+        for (let i = 0; i < disks && (a !== 0 || b !== 0); ++i) {
+          const x = a * width + aside + (turnsX ? width - places[2 * i] : places[2 * i]);
+          const y = b * height + (turnsY ? height - places[2 * i + 1] : places[2 * i + 1]);
+          if (isBeyond(x, y, 0, 0)) continue;
+          places.push(x, y);
+          isReflected.push(turnsX || turnsY);
         }
       }
     }
-    let re = 0;
-    let im = 0;
-    let perimeter = 0;
-    let neighbours = 0;
-    let isAtWall = false;
-    for (let k = 0; k < count; ++k) {
-      if (box.isCircle && Math.hypot(mx + x[k] - left - width / 2, my + y[k] - bottom - height / 2) > width / 2) isAtWall = true;
-      const to = (k + 1) % count;
-      const length = Math.hypot(x[to] - x[k], y[to] - y[k]);
-      if (length < 1e-9 * side) continue;
-      if (label[k] === wall) {
-        isAtWall = true;
+    const { triangles, halfedges } = new Delaunator(places);
+    const corners = circleCentres(triangles, places);
+    const perimeter = new Float64Array(disks);
+    const isCut = new Array(disks).fill(false);
+    for (const numbers of [order.re, order.im, order.neighbours]) numbers.fill(0);
+    for (let e = 0; e < triangles.length; ++e) {
+      const i = triangles[e];
+      if (i >= disks) continue;
+      if (halfedges[e] < 0) return false;
+      // The side between i and j ends at the corners of the two triangles that share the edge e from i to j.
+      const j = triangles[e % 3 === 2 ? e - 2 : e + 1];
+      const from = 2 * Math.floor(e / 3);
+      const to = 2 * Math.floor(halfedges[e] / 3);
+      const [x, y] = [corners[from], corners[from + 1]];
+      const radius = Math.hypot(x - places[2 * i], y - places[2 * i + 1]);
+      if (isBeyond(x, y, Math.min(radius, reachX), Math.min(radius, reachY))) return false;
+      if (box.isCircle && Math.hypot(x - width / 2, y - height / 2) > width / 2) isCut[i] = true;
+      const length = Math.hypot(corners[to] - x, corners[to + 1] - y);
+      if (length < 1e-9) continue;
+      if (isReflected[j]) {
+        isCut[i] = true;
         continue;
       }
-      const angle = 6 * Math.atan2(toY[label[k]], toX[label[k]]);
-      re += length * Math.cos(angle);
-      im += length * Math.sin(angle);
-      perimeter += length;
-      ++neighbours;
+      const angle = 6 * Math.atan2(places[2 * j + 1] - places[2 * i + 1], places[2 * j] - places[2 * i]);
+      order.re[i] += length * Math.cos(angle);
+      order.im[i] += length * Math.sin(angle);
+      perimeter[i] += length;
+      ++order.neighbours[i];
     }
-    order.re[i] = perimeter > 0 ? re / perimeter : 0;
-    order.im[i] = perimeter > 0 ? im / perimeter : 0;
-    order.size[i] = Math.hypot(order.re[i], order.im[i]);
-    order.neighbours[i] = isAtWall ? 0 : neighbours;
-  }
+    for (let i = 0; i < disks; ++i) {
+      order.re[i] /= Math.max(perimeter[i], 1e-9);
+      order.im[i] /= Math.max(perimeter[i], 1e-9);
+      order.size[i] = Math.hypot(order.re[i], order.im[i]);
+      if (isCut[i]) order.neighbours[i] = 0;
+    }
+    return triangles.length > 0;
+  };
+  for (let margin = 3; !findCells(margin) && margin < Math.max(mostX, mostY); margin *= 2);
 }
