@@ -75,9 +75,9 @@
     findOrder(moment, order);
   };
   const count = moment.x.length;
-  arrange((i, x, y) => [0.3 + x / 40, 0.3 + y / 40]);
-  checkCells("of disks that are all in one place");
-  if (isPeriodic) checkSix("of disks that are all in one place");
+  arrange((i, x, y) => (i === 0 ? [0.8, 0.8] : [0.3 + x / 40, 0.3 + y / 40]));
+  checkCells("of disks that are all but one in one place");
+  if (isPeriodic) checkSix("of disks that are all but one in one place");
   arrange((i) => [(i + 0.5) / count, 0.5]);
   checkCells("of disks in a line");
   const inColumn = count % 8 === 0 ? 8 : 1;
