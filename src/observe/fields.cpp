@@ -20,11 +20,12 @@
 //
 // Averages over time: of disks at the steps, of collisions over all the time between. The run is kept as up to thirty-two
 // stretches of equal length, each twice as long as before when there would be more. They are the fields in time, and errors come
-// from them or from pairs of them by the jackknife, whichever are larger.
+// from them by the jackknife. All cells together tell how far correlations reach from one stretch into the next.
 
 #include "observe/area_in_circle.hpp"
 #include "observe/blocking.hpp"
 #include "observe/equilibrium.hpp"
+#include "observe/long_blocks.hpp"
 #include "observe/near_pairs.hpp"
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"
@@ -38,6 +39,7 @@
 #include <cmath>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace carom {
@@ -93,7 +95,8 @@ constexpr std::array<FieldName, 11> all_fields = {{{"density", "1 / area"},
 constexpr std::size_t states_alone = 4;  ///< the first fields, which need no collisions
 using FieldValues = std::array<double, all_fields.size()>;
 struct FieldEstimates {
-  FieldValues mean, variance;
+  FieldValues mean{}, variance{};
+  FieldValues squares{}, products{};  ///< of what leaving out a stretch changes: by itself, and with the stretch that follows
 };
 
 /// Returns the fields in a cell from the sums of so many steps. Without disks there is a density alone, without area nothing.
@@ -213,7 +216,9 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
       found.note = "the run is too short";
       return found;
     }
-    found.tables = {averages(), in_time()};
+    bool correlated = false;
+    found.tables = {averages(correlated), in_time()};
+    note_lower_bounds(found, correlated);
     return found;
   }
 
@@ -223,7 +228,7 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
   }
 
  private:
-  static constexpr std::size_t most_stretches = 32, least_for_errors = 8;
+  static constexpr std::size_t most_stretches = 32, least_for_errors = 16;
 
   [[nodiscard]] double energy_gained(std::int32_t disk, const Eigen::Vector2d& before, const Eigen::Vector2d& after) const {
     return 0.5 * run_.disks.mass[static_cast<std::size_t>(disk)] * (after.squaredNorm() - before.squaredNorm());
@@ -327,18 +332,9 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
     return places;
   }
 
-  /// Returns the larger ones of variances by the jackknife over all stretches, and of those over pairs of them, which
-  /// correlations from one stretch to the next lower less. Of an odd number of stretches the first is in no pair.
-  [[nodiscard]] FieldValues larger_by_pairs(std::size_t c, const FieldValues& by_stretches) const {
-    const std::size_t count = stretches_.size(), alone = count % 2;
-    FieldValues larger = estimates(c, alone, count, 2).variance;
-    const double share = static_cast<double>(count - alone) / static_cast<double>(count);
-    for (std::size_t f = 0; f < larger.size(); ++f) larger[f] = std::max(share * larger[f], by_stretches[f]);
-    return larger;
-  }
-
-  /// Returns the fields averaged over all whole stretches, with errors by the jackknife over these, and halves compared.
-  [[nodiscard]] Table averages() const {
+  /// Returns the fields averaged over all whole stretches, with errors by the jackknife over these, and halves compared. Sets
+  /// `correlated` where stretches are too short for the correlations of a field.
+  [[nodiscard]] Table averages(bool& correlated) const {
     Table table{.name = "fields"};
     for (Column& column : middles()) table.columns.push_back(std::move(column));
     if (run_.scene.box.is_circle) table.columns.push_back({"area", "area", areas_});
@@ -349,21 +345,29 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
     }
     const std::size_t count = stretches_.size(), begin = first_of_long_blocks(count);
     const double share = static_cast<double>(begin) / static_cast<double>(count);
-    std::vector<ColumnComparison> comparisons(names_.size());
+    std::vector<NextBlockCorrelation> correlations(names_.size(), NextBlockCorrelation(count));
     for (std::size_t c = 0; c < coming_.size(); ++c) {
       const FieldEstimates all = estimates(c, 0, count, 1);
-      const FieldValues variance = count < most_stretches / 2 ? all.variance : larger_by_pairs(c, all.variance);
       for (std::size_t f = 0; f < names_.size(); ++f) {
         table.columns[first + 2 * f].values.push_back(all.mean[f]);
-        table.columns[first + 2 * f + 1].values.push_back(count < least_for_errors ? unknown : std::sqrt(variance[f]));
+        table.columns[first + 2 * f + 1].values.push_back(count < least_for_errors ? unknown : std::sqrt(all.variance[f]));
+        correlations[f].add(all.mean[f], all.squares[f], all.products[f]);
       }
-      if (begin == 0) continue;
+    }
+    for (std::size_t f = 0; f < (count < least_for_errors ? 0 : names_.size()); ++f) {
+      const double correlation = correlations[f].value(), factor = variance_by_correlated_blocks(correlation, count);
+      correlated = correlated || correlation > most_correlation_of_blocks;
+      for (double& error : table.columns[first + 2 * f + 1].values) error *= std::sqrt(factor);
+    }
+    std::vector<ColumnComparison> comparisons(names_.size());
+    for (std::size_t c = 0; c < (begin > 0 ? coming_.size() : 0); ++c) {
       const FieldEstimates before = estimates(c, 0, begin, 1), rest = estimates(c, begin, count, 1),
                            pairs = estimates(c, begin, count, 2);
-      for (std::size_t f = 0; f < names_.size(); ++f)
-        comparisons[f].add(compared_halves(share, before.mean[f], rest.mean[f],
-                                           std::sqrt(std::max(rest.variance[f], pairs.variance[f])),
-                                           0.5 * static_cast<double>(count - begin)));
+      for (std::size_t f = 0; f < names_.size(); ++f) {
+        if (correlations[f].value() > most_correlation_of_blocks) continue;  // errors are too small to compare by
+        const double error = std::sqrt(std::max(rest.variance[f], pairs.variance[f]));
+        comparisons[f].add(compared_halves(share, before.mean[f], rest.mean[f], error, 0.5 * static_cast<double>(count - begin)));
+      }
     }
     for (std::size_t f = 0; f < names_.size(); ++f) comparisons[f].put(table, names_[f].name, 2);
     return table;
@@ -377,17 +381,21 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
     };
     CellSums all;
     for (std::size_t s = begin; s < end; ++s) all += stretches_[s][c];
-    FieldEstimates found{.mean = fields_of(all, steps_of(end - begin), step_, areas_[c]), .variance = {}};
+    FieldEstimates found{.mean = fields_of(all, steps_of(end - begin), step_, areas_[c])};
+    FieldValues before{};
     for (std::size_t s = begin; s < end; s += length) {
       CellSums others = all;
       for (std::size_t k = 0; k < length; ++k) others -= stretches_[s + k][c];
       const FieldValues without = fields_of(others, steps_of(end - begin - length), step_, areas_[c]);
-      for (std::size_t f = 0; f < without.size(); ++f)
-        found.variance[f] += (without[f] - found.mean[f]) * (without[f] - found.mean[f]);
+      for (std::size_t f = 0; f < without.size(); ++f) {
+        const double changed = without[f] - found.mean[f];
+        found.squares[f] += changed * changed;
+        found.products[f] += changed * std::exchange(before[f], changed);
+      }
     }
     const std::size_t left_out = (end - begin) / length;  // one at a time
     const double count = static_cast<double>(left_out);
-    for (double& one : found.variance) one *= (count - 1.0) / count;
+    for (std::size_t f = 0; f < found.variance.size(); ++f) found.variance[f] = (count - 1.0) / count * found.squares[f];
     return found;
   }
 
