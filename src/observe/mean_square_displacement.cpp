@@ -1,6 +1,6 @@
 // Mean square displacement and what diffusion coefficient it amounts to at each lag: D(t) = <|r(t) - r(0)|^2> / 4 t. In two
-// dimensions D grows with the logarithm of t, so there is no limit to report, but D at a lag that the run knows well. Averages
-// over time, of some disks of each species.
+// dimensions D grows with the logarithm of t, so there is no limit to report, but D at a lag of which the run holds many windows:
+// the same one whatever its seed. Averages over time, of some disks of each species.
 
 #include "observe/blocking.hpp"
 #include "observe/multiple_tau.hpp"
@@ -22,6 +22,11 @@ namespace {
 /// which is taken out. Measured with 8 (too large by 1.4) and 64 (right): see docs/observables.md.
 constexpr std::size_t few = 32;
 
+/// D is reported at the longest lag of which the run holds so many displacements along an axis, in windows side by side, whose
+/// mean square chance alone leaves uncertain by 5 % (sqrt(2 / 800)); and so many of these windows, so that it has an error. Were
+/// it the longest lag at which the error is small, chance would choose it.
+constexpr double enough_displacements = 800.0, enough_windows = 8.0;
+
 class MeanSquareDisplacement final : public SavedObservable<MeanSquareDisplacement> {
  public:
   MeanSquareDisplacement(const ObservableRequest& request, const ObservedRun& run) : SavedObservable(request, run) {
@@ -37,13 +42,13 @@ class MeanSquareDisplacement final : public SavedObservable<MeanSquareDisplaceme
       if (tracked_[s].channels() > 0) ladders_[s].add(tracked_[s].unwrapped(run_, state, drift));
   }
 
-  [[nodiscard]] Measurement finish(double, const Totals&) override {
+  [[nodiscard]] Measurement finish(double time, const Totals&) override {
     Measurement found{.name = name()};
     Table table{.name = name()};
     std::vector<MultipleTau::Row> all;
     for (std::size_t s = 0; s < ladders_.size(); ++s) {
       const std::vector<MultipleTau::Row> rows = ladders_[s].rows();
-      if (tracked_[s].channels() > 0) found.scalars.push_back(diffusion_of(rows, s));
+      if (tracked_[s].channels() > 0) found.scalars.push_back(diffusion_of(rows, s, time));
       if (rows.empty()) continue;
       all.insert(all.end(), rows.begin(), rows.end());
       const std::string suffix = run_.suffix(s);
@@ -80,19 +85,23 @@ class MeanSquareDisplacement final : public SavedObservable<MeanSquareDisplaceme
   }
 
  private:
-  /// Returns the diffusion coefficient at the longest lag at which it is well known.
-  [[nodiscard]] Scalar diffusion_of(const std::vector<MultipleTau::Row>& rows, std::size_t species) const {
+  /// Returns the diffusion coefficient at the longest lag of which a run of this time holds enough displacements.
+  [[nodiscard]] Scalar diffusion_of(const std::vector<MultipleTau::Row>& rows, std::size_t species, double time) const {
     Scalar scalar{.name = "diffusion" + run_.suffix(species), .unit = "length^2 / time"};
-    const auto is_known = [](const MultipleTau::Row& row) {
-      return row.pairs.error && *row.pairs.error <= most_error_of_halves * row.pairs.mean;
+    const double channels = static_cast<double>(tracked_[species].channels());
+    const auto holds_enough = [&](const MultipleTau::Row& row) {
+      const double windows = time / (step_ * row.lag);
+      return row.pairs.error && windows >= enough_windows && windows * channels >= enough_displacements;
     };
-    const auto longest = std::find_if(rows.rbegin(), rows.rend(), is_known);
+    const auto longest = std::find_if(rows.rbegin(), rows.rend(), holds_enough);
     if (longest == rows.rend()) {
-      scalar.note = "the run is too short: at no lag is it known to 5 %";
+      scalar.note =
+          fmt::format("the run is too short: of no lag does it hold {:.0f} displacements along an axis", enough_displacements);
       return scalar;
     }
     const double lag = step_ * longest->lag;
-    scalar.note = fmt::format("at lag {:.4g}, the longest at which it is known to 5 %", lag);
+    scalar.note = fmt::format("at lag {:.4g}, the longest of which the run holds {:.0f} displacements along an axis", lag,
+                              enough_displacements);
     longest->fill(scalar, step_, 0.5 / lag);  // 2 of one component over 4 t
     return scalar;
   }

@@ -63,23 +63,24 @@ Observed in_a_bath(double rate, double time, const std::string& observable) {
                  time);
 }
 
-TEST(ObservedCorrelations, DiffusionIsThatOfTheLongestLagThatIsWellKnown) {
+/// 40 disks have 80 displacements along an axis in each window.
+TEST(ObservedCorrelations, DiffusionIsThatOfTheLongestLagWithEnoughDisplacements) {
   const Observed o = in_a_bath(1.0, 1000.0, "mean_square_displacement = { every = 0.5 }");
   const Scalar& D = o.scalar("mean_square_displacement", "diffusion");
   const auto column = [&](const char* name) { return o.column("mean_square_displacement", 0, name); };
   double lag = 0.0;
   for (std::size_t row = 0; row < column("lag").size(); ++row)
-    if (column("diffusion_error")[row] <= 0.05 * column("diffusion")[row]) lag = column("lag")[row];
-  ASSERT_GT(lag, 10.0);
+    if (80.0 * 1000.0 / column("lag")[row] >= 800.0) lag = column("lag")[row];
+  ASSERT_GT(lag, 60.0);
   EXPECT_THAT(D.note, testing::StartsWith(fmt::format("at lag {:.4g}, the longest", lag)));
   // <v(0) v(t)> falls as exp(-t) from kT/m = 1/2 of each component: D(t) = (1 - (1 - exp(-t)) / t) / 2.
   EXPECT_NEAR(*D.value, 0.5 * (1.0 - (1.0 - std::exp(-lag)) / lag), 4.0 * *D.error);
-  EXPECT_LE(*D.error, 0.05 * *D.value);
+  EXPECT_LE(*D.error, 0.07 * *D.value) << "chance alone leaves 4 %, of windows that overlap";
   EXPECT_EQ(D.unit, "length^2 / time");
   const Scalar none =
-      in_a_bath(1.0, 2.0, "mean_square_displacement = { every = 0.5 }").scalar("mean_square_displacement", "diffusion");
+      in_a_bath(1.0, 4.5, "mean_square_displacement = { every = 0.5 }").scalar("mean_square_displacement", "diffusion");
   EXPECT_FALSE(none.value);
-  EXPECT_EQ(none.note, "the run is too short: at no lag is it known to 5 %");
+  EXPECT_EQ(none.note, "the run is too short: of no lag does it hold 800 displacements along an axis");
 }
 
 TEST(ObservedCorrelations, RelaxationTimeIsWhereTheOverlapFallsToOneOverE) {
