@@ -98,7 +98,7 @@ class Domains {
     balance,   ///< borders are to be moved, or coordinates made coarser
     counted,   ///< as many collisions or events as were asked for have happened
     outgrown,  ///< disks have become too large for their lists
-    void_one,  ///< the window was void
+    void_one,  ///< the window was void, or the epoch begins with what one engine alone can do
     failed     ///< something was thrown
   };
 
@@ -331,7 +331,8 @@ class Domains {
   int unbalanced_for_ = 0;             ///< epochs
   std::vector<SpeedCensus> censuses_;  ///< by domain
   std::vector<std::uint64_t> longest_lists_;
-  std::optional<Instant> alone_until_;  ///< the whole engine goes on until then
+  std::optional<Instant> alone_until_;                 ///< the whole engine goes on until then
+  Instant epoch_of_void_one_{-infinity<double>, 0.0};  ///< the last one with a window that was void
 
   double now_ = 0.0;     ///< since the epoch
   double window_ = 0.0;  ///< length of the next

@@ -142,7 +142,6 @@ void Domains<Impact, Layout, World>::end_run() {
     case Next::void_one:
       restore_redraws();
       go_back();
-      alone_until_ = whole_.epoch_.plus(whole_.epoch_length_);
       break;
     default:
       break;
@@ -512,6 +511,10 @@ void Domains<Impact, Layout, World>::decide() {
     if (nearest <= allowed) window_ = std::max(0.5 * window_, shortest_window_);
     if (missed) pair_rate_ = 2.0 * std::max(pair_rate_, rate);
     next_ = Next::void_one;
+    // The whole engine begins where the epoch did, and to share out its disks costs too: a second time it goes to the end.
+    const bool again = !(epoch_of_void_one_ < whole_.epoch_);
+    epoch_of_void_one_ = whole_.epoch_;
+    alone_until_ = whole_.epoch_.plus(again ? whole_.epoch_length_ : window_end_);
   } else {
     // After a start from a lattice there are few collisions at first, and then many: the last window alone may say too little.
     pair_rate_ = std::max(0.75 * rate_begun_with_, pairs > pairs_before_ + 200 ? rate : 0.0);
@@ -738,7 +741,7 @@ void Domains<Impact, Layout, World>::end_of_epoch() {
   if (has_failed())
     next_ = Next::failed;
   else if (whole_.stall_.jammed() || whole_.idle() || !owed_.isZero(0.0))  // which one engine alone is to give the disks
-    next_ = Next::void_one;
+    next_ = Next::void_one, alone_until_ = whole_.epoch_.plus(whole_.epoch_length_);
   else if (is_unbalanced() || 2.5 * half_width_ > reach_)  // halos hold all disks that new neighbourhoods bring to another home
     next_ = Next::balance;
   else if (factor_)

@@ -49,7 +49,9 @@ TEST(Threads, KeepTheirWindowsAfterAStartFromALattice) {
       expect_same(alone, shared, std::to_string(packing_fraction));
       EXPECT_GT(shared.thread_counts().windows, 20U);
       EXPECT_LE(shared.thread_counts().windows_redone, 2U) << packing_fraction;
-      EXPECT_LT(shared.thread_counts().share_alone(), 0.5) << packing_fraction;
+      // A void window costs one core what its epoch has had so far; a second one in the same epoch, all of it.
+      const bool once = shared.thread_counts().windows_redone < 2;
+      EXPECT_LT(shared.thread_counts().share_alone(), once ? 0.05 : 0.3) << packing_fraction;
     }
 }
 
