@@ -59,9 +59,10 @@ SetKeys keys_in(const toml::node& node, const std::string& path) {
   return set;
 }
 
-Change read_change(const toml::table& node, const std::string& path) {
-  const std::vector<std::string_view> kinds = {"set",       "scale_velocities", "add_disk",       "remove_disk",
-                                               "move_disk", "add_obstacle",     "remove_obstacle"};
+Change read_change(const toml::table& node, const std::string& path, bool of_disks_too) {
+  const std::vector<std::string_view> of_any_scene = {"set", "scale_velocities", "add_obstacle", "remove_obstacle"};
+  std::vector<std::string_view> kinds = of_any_scene;
+  kinds.insert(kinds.end(), {"add_disk", "remove_disk", "move_disk"});
   std::vector<std::string_view> known = kinds;
   known.emplace_back("time");
   const TableReader table(node, path, known);
@@ -78,7 +79,8 @@ Change read_change(const toml::table& node, const std::string& path) {
     found = kind;
   }
   if (found.empty())
-    throw SceneError(table.where(), fmt::format("{} changes nothing; give one of {}", path, fmt::join(kinds, ", ")));
+    throw SceneError(table.where(), fmt::format("{} changes nothing; give one of {}", path,
+                                                fmt::join(of_disks_too ? kinds : of_any_scene, ", ")));
   const toml::node& value = *table.find(found);
   const auto within = [&](const char* example, std::vector<std::string_view> keys) {
     return TableReader(*table.table(found, example), table.path(found), std::move(keys));
@@ -130,7 +132,7 @@ struct Text {
 
 }  // namespace
 
-std::vector<Change> detail::read_changes(const toml::node& node) {
+std::vector<Change> detail::read_changes(const toml::node& node, bool of_disks_too) {
   const toml::array* list = node.as_array();
   if (list == nullptr) refuse(node, "changes", "a list of tables: write [[changes]] with double brackets");
   std::vector<Change> changes;
@@ -138,7 +140,7 @@ std::vector<Change> detail::read_changes(const toml::node& node) {
     const std::string path = fmt::format("changes.{}", i);
     const toml::table* entry = (*list)[i].as_table();
     if (entry == nullptr) refuse((*list)[i], path, "a table: write [[changes]] with double brackets");
-    changes.push_back(read_change(*entry, path));
+    changes.push_back(read_change(*entry, path, of_disks_too));
     if (i > 0 && changes[i].time < changes[i - 1].time)
       throw SceneError(location_of((*list)[i]), times_out_of_order(i, changes[i].time, changes[i - 1].time));
   }
@@ -153,7 +155,7 @@ std::vector<Change> parse_changes(const std::string& text, const std::string& so
   const toml::table document = detail::parse_toml(text, source);
   const TableReader reader(document, "", {"changes"});
   const toml::node* node = reader.find("changes");
-  return node == nullptr ? std::vector<Change>() : detail::read_changes(*node);
+  return node == nullptr ? std::vector<Change>() : detail::read_changes(*node, true);
 }
 
 std::vector<Change> load_changes(const std::string& path) { return parse_changes(detail::read_text_file(path), path); }

@@ -36,8 +36,9 @@ void require_changeable(const std::string& override_text, bool of_disks_too = tr
 
 namespace detail {
 
-/// `node` is the value of `changes`, a list of tables.
-[[nodiscard]] std::vector<Change> read_changes(const toml::node& node);
+/// Reads a list of tables, `node`, which is the value of `changes`. Where a table lacks its kind, the sentence names those that
+/// change disks only if the list may have them, which one in a scene may not.
+[[nodiscard]] std::vector<Change> read_changes(const toml::node& node, bool of_disks_too);
 
 /// Returns the sentence for changes.K whose time comes before that of the change above it.
 [[nodiscard]] std::string times_out_of_order(std::size_t k, double time, double before);

@@ -80,7 +80,7 @@ void read_document(const toml::table& document, const std::string& directory, de
   if (const toml::table* observe = reader.table("observe", "[observe]")) {
     scene.observe = detail::read_observe(*observe, draft.box.circle.has_value());
   }
-  if (const toml::node* changes = reader.find("changes")) scene.changes = detail::read_changes(*changes);
+  if (const toml::node* changes = reader.find("changes")) scene.changes = detail::read_changes(*changes, false);
 }
 
 /// Returns the place of a path. A row of a start file has its place there.

@@ -78,7 +78,7 @@ TEST(Circle, ADiskKeepsItsAngularMomentumAndItsChord) {
 // circle. Each has chords of one length, which its angular momentum gives, and the number of its bounces is exact.
 TEST(Circle, TheMeanChordIsPiTimesTheAreaOverThePerimeter) {
   constexpr double radius = 0.75, time = 60.0;
-  constexpr std::uint64_t starts = 2000;
+  constexpr std::uint64_t starts = 10'000;
   double sum = 0.0, squares = 0.0;
   for (std::uint64_t seed = 1; seed <= starts; ++seed) {
     Scene scene = in_circle(1.0, {species_of(1, 0.25, 1.0, RandomPositions{}, FixedSpeed{1.0})});
@@ -92,7 +92,7 @@ TEST(Circle, TheMeanChordIsPiTimesTheAreaOverThePerimeter) {
   }
   const auto count = static_cast<double>(starts);
   const double mean = sum / count, error = std::sqrt((squares / count - mean * mean) / count);
-  EXPECT_LT(error, 0.02 * mean);
+  EXPECT_LT(error, 0.01 * mean);
   EXPECT_NEAR(mean, 2.0 / (std::numbers::pi * radius), 5.0 * error);
 }
 

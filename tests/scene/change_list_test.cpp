@@ -16,6 +16,7 @@
 namespace carom::test {
 namespace {
 
+using testing::EndsWith;
 using testing::HasSubstr;
 
 std::vector<Change> one_of_each_kind() {
@@ -38,6 +39,18 @@ std::string text_of(const std::vector<Change>& changes) {
 std::string refusal_of(const std::string& text) {
   try {
     (void)parse_changes(text, "list.toml");
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string refusal_of_scene(const std::string& changes) {
+  try {
+    (void)parse_scene(
+        "[box]\nx = [0, 10]\ny = [0, 10]\nboundary = \"periodic\"\n[[disks]]\nradius = 0.5\nmass = 1\n"
+        "positions = [[5, 5]]\nvelocities = [[1, 0]]\n[collision]\nrule = \"specular\"\n[run]\ntime = 2\n" +
+        changes);
   } catch (const SceneError& error) {
     return error.what();
   }
@@ -73,7 +86,11 @@ TEST(Changes, AreRefusedWithTheirPlace) {
   EXPECT_THAT(refusal_of("[[changes]]\nremove_disk = 1\n"), HasSubstr("list.toml:1:1: [[changes]] lacks time"));
   EXPECT_THAT(refusal_of("[[changes]]\ntime = -1\nremove_disk = 1\n"), HasSubstr("list.toml:2:8: changes.0.time"));
   EXPECT_THAT(refusal_of("[[changes]]\ntime = nan\nremove_disk = 1\n"), HasSubstr("must be a finite number"));
-  EXPECT_THAT(refusal_of("[[changes]]\ntime = 1\n"), HasSubstr("changes nothing; give one of set, scale_velocities"));
+  EXPECT_THAT(refusal_of("[[changes]]\ntime = 1\n"),
+              HasSubstr("changes nothing; give one of set, scale_velocities, add_obstacle, remove_obstacle, add_disk, "
+                        "remove_disk, move_disk"));
+  EXPECT_THAT(refusal_of_scene("[[changes]]\ntime = 1\n"),
+              EndsWith("changes nothing; give one of set, scale_velocities, add_obstacle, remove_obstacle"));
   EXPECT_THAT(refusal_of("[[changes]]\ntime = 1\nremove_disk = 1\nscale_velocities = 2\n"), HasSubstr("has both"));
   EXPECT_THAT(refusal_of("[[changes]]\ntime = 1\nremove_disc = 1\n"), HasSubstr("did you mean \"remove_disk\"?"));
   EXPECT_THAT(refusal_of("[[changes]]\ntime = 1\nset = \"run.time=2\"\n"), HasSubstr("a list of texts"));

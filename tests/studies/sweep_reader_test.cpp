@@ -191,7 +191,9 @@ TEST_F(SweepReader, ATableHasFunctionsOfALagAtALag) {
               HasSubstr("behind @ there is to be a value of lag, such as observables.overlap.overlap@1.5"));
   EXPECT_THAT(at("overlap.overlap@"), HasSubstr("behind @ there is to be a value of lag"));
   EXPECT_THAT(at("overlap.overlap@inf"), HasSubstr("behind @ there is to be a value of lag"));
-  EXPECT_THAT(at("overlap.overlop@1"), HasSubstr("did you mean"));
+  EXPECT_THAT(at("overlap.overlop@1"), HasSubstr("did you mean \"observables.overlap.overlap@1\"?"));
+  EXPECT_THAT(at("mean_square_displacement.diffuson@2.5"),
+              HasSubstr("did you mean \"observables.mean_square_displacement.diffusion@2.5\"?"));
   EXPECT_THAT(at("overlap.overlap@lag"), HasSubstr("behind @ there is to be a value of lag"));
 }
 
@@ -214,7 +216,7 @@ TEST_F(SweepReader, ATableHasCellsByAPlaceInThem) {
 TEST_F(SweepReader, AColumnThatBeginsAsAnotherIsThatOne) {
   EXPECT_THAT(files_.refusal(scene_line + "table = [\"observables.intermediate_scattering.F_s@0.3\"]\n[set]\nrun.time = 4.0\n"
                                           "observe = { intermediate_scattering = true }\n"),
-              HasSubstr("did you mean \"observables.intermediate_scattering.F_self@lag\"?"));
+              HasSubstr("did you mean \"observables.intermediate_scattering.F_self@0.3\"?"));
 }
 
 TEST_F(SweepReader, ColumnsOfSeveralWaveNumbersAreForetold) {
@@ -225,7 +227,7 @@ TEST_F(SweepReader, ColumnsOfSeveralWaveNumbersAreForetold) {
   for (const char* right : {"F_3.5@0.3", "F_self_10@0.3", "F_self_3.5_error@0.3", "relaxation_time_10", "k_3.5"})
     EXPECT_EQ(at(right), "") << right;
   EXPECT_THAT(at("F_self_10.0@0.3"), HasSubstr("no run has that number"));
-  EXPECT_THAT(at("F_self@0.3"), HasSubstr("did you mean \"observables.intermediate_scattering.F_self_3.5@lag\"?"));
+  EXPECT_THAT(at("F_self@0.3"), HasSubstr("did you mean \"observables.intermediate_scattering.F_self_3.5@0.3\"?"));
 }
 
 TEST_F(SweepReader, ASceneIsToldFromASweep) {

@@ -290,6 +290,20 @@ std::vector<std::string> number_names(const Scene& given) {
   return names;
 }
 
+namespace {
+
+/// Returns the column of a table, as far as its @, that begins as `name` does or is nearest to it; empty where none is near.
+std::string near_column(const std::string& name, const std::vector<std::string>& numbers) {
+  std::vector<std::string> columns;
+  for (const std::string& number : numbers)
+    if (const std::size_t sign = number.find('@'); sign != std::string::npos) columns.push_back(number.substr(0, sign));
+  const auto longer = std::ranges::find_if(columns, [&](const std::string& column) { return column.starts_with(name); });
+  if (longer != columns.end()) return *longer;
+  return std::string(detail::nearest_word(name, std::vector<std::string_view>(columns.begin(), columns.end())));
+}
+
+}  // namespace
+
 std::string fault_of_number_name(const std::string& name, const std::vector<std::string>& numbers) {
   if (const std::size_t sign = name.find('@'); sign != std::string::npos) {
     const auto form = std::find_if(numbers.begin(), numbers.end(), [&](const std::string& number) {
@@ -305,10 +319,8 @@ std::string fault_of_number_name(const std::string& name, const std::vector<std:
       if (columns == "lag") return "no run is that long; a lag is at most run.time";
       return "no run has a row there; a place is in the box, and a time at most run.time";
     }
-    const auto longer = std::find_if(numbers.begin(), numbers.end(), [&](const std::string& number) {
-      return number.starts_with(name.substr(0, sign)) && number.find('@') != std::string::npos;
-    });
-    if (longer != numbers.end()) return fmt::format("no run has that number; did you mean \"{}\"?", *longer);
+    const std::string of_table = near_column(name.substr(0, sign), numbers);
+    if (!of_table.empty()) return fmt::format("no run has that number; did you mean \"{}{}\"?", of_table, name.substr(sign));
   }
   const std::vector<std::string_view> words(numbers.begin(), numbers.end());
   const std::string_view near = detail::nearest_word(name, words);
