@@ -347,7 +347,7 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
     const double share = static_cast<double>(begin) / static_cast<double>(count);
     std::vector<NextBlockCorrelation> correlations(names_.size(), NextBlockCorrelation(count));
     for (std::size_t c = 0; c < coming_.size(); ++c) {
-      const FieldEstimates all = estimates(c, 0, count, 1);
+      const FieldEstimates all = estimates(c, 0, count);
       for (std::size_t f = 0; f < names_.size(); ++f) {
         table.columns[first + 2 * f].values.push_back(all.mean[f]);
         table.columns[first + 2 * f + 1].values.push_back(count < least_for_errors ? unknown : std::sqrt(all.variance[f]));
@@ -359,23 +359,27 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
       correlated = correlated || correlation > most_correlation_of_blocks;
       for (double& error : table.columns[first + 2 * f + 1].values) error *= std::sqrt(factor);
     }
-    std::vector<ColumnComparison> comparisons(names_.size());
-    for (std::size_t c = 0; c < (begin > 0 ? coming_.size() : 0); ++c) {
-      const FieldEstimates before = estimates(c, 0, begin, 1), rest = estimates(c, begin, count, 1),
-                           pairs = estimates(c, begin, count, 2);
-      for (std::size_t f = 0; f < names_.size(); ++f) {
-        if (correlations[f].value() > most_correlation_of_blocks) continue;  // errors are too small to compare by
-        const double error = std::sqrt(std::max(rest.variance[f], pairs.variance[f]));
-        comparisons[f].add(compared_halves(share, before.mean[f], rest.mean[f], error, 0.5 * static_cast<double>(count - begin)));
-      }
+    if (begin == 0) return table;
+    std::vector<FieldEstimates> before, rest;
+    std::vector<NextBlockCorrelation> of_rest(names_.size(), NextBlockCorrelation(count - begin));
+    for (std::size_t c = 0; c < coming_.size(); ++c) {
+      before.push_back(estimates(c, 0, begin));
+      rest.push_back(estimates(c, begin, count));
+      for (std::size_t f = 0; f < names_.size(); ++f) of_rest[f].add(rest[c].mean[f], rest[c].squares[f], rest[c].products[f]);
     }
-    for (std::size_t f = 0; f < names_.size(); ++f) comparisons[f].put(table, names_[f].name, 2);
+    for (std::size_t f = 0; f < names_.size(); ++f) {
+      const double factor = variance_by_correlated_blocks(of_rest[f].value(), count - begin);
+      ColumnComparison comparison;
+      for (std::size_t c = 0; c < coming_.size(); ++c)
+        comparison.add(compared_halves(share, before[c].mean[f], rest[c].mean[f], std::sqrt(factor * rest[c].variance[f]),
+                                       0.5 * static_cast<double>(count - begin)));
+      comparison.put(table, names_[f].name, 2);
+    }
     return table;
   }
 
-  /// Returns the fields in a cell over the stretches from `begin` to before `end`, with variances by the jackknife over `length`
-  /// of them together.
-  [[nodiscard]] FieldEstimates estimates(std::size_t c, std::size_t begin, std::size_t end, std::size_t length) const {
+  /// Returns the fields in a cell over the stretches from `begin` to before `end`, with variances by the jackknife over these.
+  [[nodiscard]] FieldEstimates estimates(std::size_t c, std::size_t begin, std::size_t end) const {
     const auto steps_of = [&](std::size_t stretches) {
       return static_cast<double>(stretches) * static_cast<double>(steps_of_stretch_);
     };
@@ -383,19 +387,18 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
     for (std::size_t s = begin; s < end; ++s) all += stretches_[s][c];
     FieldEstimates found{.mean = fields_of(all, steps_of(end - begin), step_, areas_[c])};
     FieldValues before{};
-    for (std::size_t s = begin; s < end; s += length) {
+    for (std::size_t s = begin; s < end; ++s) {
       CellSums others = all;
-      for (std::size_t k = 0; k < length; ++k) others -= stretches_[s + k][c];
-      const FieldValues without = fields_of(others, steps_of(end - begin - length), step_, areas_[c]);
+      others -= stretches_[s][c];
+      const FieldValues without = fields_of(others, steps_of(end - begin - 1), step_, areas_[c]);
       for (std::size_t f = 0; f < without.size(); ++f) {
         const double changed = without[f] - found.mean[f];
         found.squares[f] += changed * changed;
         found.products[f] += changed * std::exchange(before[f], changed);
       }
     }
-    const std::size_t left_out = (end - begin) / length;  // one at a time
-    const double count = static_cast<double>(left_out);
-    for (std::size_t f = 0; f < found.variance.size(); ++f) found.variance[f] = (count - 1.0) / count * found.squares[f];
+    const auto left_out = static_cast<double>(end - begin);  // one at a time
+    for (std::size_t f = 0; f < found.variance.size(); ++f) found.variance[f] = (left_out - 1.0) / left_out * found.squares[f];
     return found;
   }
 
