@@ -105,7 +105,7 @@ using ComparisonParts = std::tuple<std::string, std::string, std::string, std::s
 
 ComparisonParts compare_methods(const Scene& scene, const cli::CompareCommandOptions& wishes, const nb::object& report) {
   const CompareOptions options = cli::compare_options(wishes);
-  cli::require_known_effects(scene, "carom compare");
+  cli::require_comparable(scene, "carom compare");
   Watch watch(report);
   const ComparisonParts parts = watched(watch, [&]() -> ComparisonParts {
     (void)make_simulation(scene, options.engine);
@@ -128,7 +128,7 @@ std::string side_by_side(const Scene& scene, const std::string& method, std::opt
   wishes.scene.engine = engine;
   wishes.stiffness = stiffness;
   const CompareOptions options = cli::compare_options(wishes);
-  cli::require_known_effects(scene, "carom compare");
+  cli::require_comparable(scene, "carom compare");
   Watch watch(report);
   const std::string html = watched(watch, [&] {
     (void)make_simulation(scene, options.engine);
@@ -155,7 +155,7 @@ HorizonParts horizon(const Scene& scene, const std::string& engine, std::optiona
                      const nb::object& report) {
   if (collisions == 0) throw cli::UsageError("--collisions 0: an exponent needs some collisions");
   (void)cli::checked_engine({.path = {}, .overrides = {}, .seed = {}, .engine = engine});
-  cli::require_known_effects(scene, "carom horizon");
+  cli::require_comparable(scene, "carom horizon");
   Watch watch(report);
   const HorizonParts parts = watched(watch, [&]() -> HorizonParts {
     const std::optional<State> start = measured_start(scene, engine, [&](const Progress&) { return watch(0.0); });
@@ -178,7 +178,7 @@ using SpectrumParts = std::tuple<std::string, std::string>;
 
 SpectrumParts lyapunov_spectrum(const Scene& scene, std::optional<std::uint64_t> collisions, const nb::object& report) {
   if (collisions == 0) throw cli::UsageError("--collisions 0: an exponent needs some collisions");
-  cli::require_known_effects(scene, "carom horizon");
+  cli::require_comparable(scene, "carom horizon");
   if (const std::string words = why_no_spectrum(scene); !words.empty()) throw cli::UsageError(words);
   Watch watch(report);
   const SpectrumParts parts = watched(watch, [&]() -> SpectrumParts {

@@ -113,9 +113,7 @@ std::string why_not_by_sweeping(const Scene& scene) {
 
 /// Returns why a method cannot run the scene, in one sentence; empty where it can.
 std::string why_not(std::string_view method, const Scene& scene) {
-  std::string why = why_no_fixed_step(scene.effects);
-  if (why.empty() && !scene.changes.empty())
-    why = "fixed-step methods go on as they began; this scene has [[changes]], which exact events alone make";
+  std::string why = why_no_fixed_step(scene);
   if (why.empty() && method == "soft") why = why_not_by_springs(scene.effects);
   if (why.empty() && method == "swept") why = why_not_by_sweeping(scene);
   return why;
@@ -123,14 +121,16 @@ std::string why_not(std::string_view method, const Scene& scene) {
 
 }  // namespace
 
-std::string why_no_fixed_step(const Effects& effects) {
+std::string why_no_fixed_step(const Scene& scene) {
   std::vector<std::string_view> known, unknown;
   for (const detail::EffectTraits& effect : detail::all_effects()) {
     if (effect.runs_by_fixed_steps)
       known.push_back(effect.name);
-    else if (effect.acts(effects))
+    else if (effect.acts(scene.effects))
       unknown.push_back(effect.name);
   }
+  if (unknown.empty() && !scene.changes.empty())
+    return "fixed-step methods go on as they began; this scene has [[changes]], which exact events alone make";
   if (unknown.empty()) return "";
   return fmt::format(
       "fixed-step methods know the collision rule, hard walls, {}; this scene asks for {} besides, which exact events alone "

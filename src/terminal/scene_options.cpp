@@ -51,8 +51,13 @@ Scene load(const SceneOptions& options) {
   return load_scene(options.path, overrides);
 }
 
-void require_known_effects(const Scene& scene, const std::string& what) {
-  if (const std::string why = why_no_fixed_step(scene.effects); !why.empty())
+void require_comparable(const Scene& scene, const std::string& what) {
+  if (!scene.changes.empty())
+    throw UsageError(
+        fmt::format("{}: {} follows trajectories that go on as they began, and this scene has [[changes]]; take it without them, "
+                    "as --set 'changes=[]' does",
+                    scene.source, what));
+  if (const std::string why = why_no_fixed_step(scene); !why.empty())
     throw UsageError(fmt::format("{}: {} takes only scenes that fixed steps can run: {}", scene.source, what, why));
 }
 

@@ -27,8 +27,9 @@ struct SceneOptions {
 /// all of them. Throws SceneError.
 Scene load(const SceneOptions& options);
 
-/// Throws UsageError where effects act that fixed-step methods do not know, and so `what` ("carom horizon") does not.
-void require_known_effects(const Scene& scene, const std::string& what);
+/// Throws UsageError where the studies of errors, of which `what` is one ("carom horizon"), do not take the scene: where effects
+/// act that fixed-step methods do not know, or the scene has [[changes]].
+void require_comparable(const Scene& scene, const std::string& what);
 
 /// "auto", or one of engine_names(). Throws UsageError where the user named another.
 const std::string& checked_engine(const SceneOptions& options);

@@ -36,6 +36,23 @@ TEST_F(EffectsRefused, ByEveryCommandThatWouldIgnoreThem) {
   }
 }
 
+TEST_F(EffectsRefused, AsAreChangesByEveryStudyOfErrors) {
+  const std::vector<std::vector<std::string>> commands = {{"compare", "gas.toml", "--out", "out"},
+                                                          {"compare", "gas.toml", "--trajectory", "own.npy"},
+                                                          {"horizon", "gas.toml"},
+                                                          {"horizon", "gas.toml", "--spectrum"},
+                                                          {"run", "gas.toml", "--verify-horizon", "--out", "out"}};
+  for (std::vector<std::string> words : commands) {
+    words.insert(words.end(), {"--set", "changes=[{time=0.5,scale_velocities=2}]"});
+    const Outcome outcome = carom(words);
+    EXPECT_EQ(outcome.exit_code, 2) << words[0] << ": " << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("carom: gas.toml: "));
+    EXPECT_THAT(outcome.err, HasSubstr("trajectories that go on as they began, and this scene has [[changes]]; "));
+    EXPECT_THAT(outcome.err, HasSubstr("--set 'changes=[]'"));
+    EXPECT_FALSE(std::filesystem::exists(file("out")));
+  }
+}
+
 TEST_F(EffectsRefused, ByFixedStepsThatKnowRestitutionAndGravityAlone) {
   const std::vector<std::string> command = {"run", "gas.toml", "--method", "grid", "--dt", "0.01", "--out", "out", "--set"};
   std::vector<std::string> words = command;

@@ -60,7 +60,7 @@ ExitCode compare_own(const CompareCommandOptions& options) {
   const ProgressMode mode = progress_mode(options.progress, options.quiet);
   const std::string& engine = checked_engine(options.scene);
   const Scene scene = load(options.scene);
-  require_known_effects(scene, "carom compare");
+  require_comparable(scene, "carom compare");
   const Simulation as_given = make_simulation(scene, engine);
   const std::vector<State> frames =
       as_usage_error([&] { return read_trajectory_file(*options.trajectory, scene, as_given.disks(), options.every); });
@@ -91,7 +91,7 @@ ExitCode compare_scene(const CompareCommandOptions& options, const Invocation& i
   const CompareOptions study = compare_options(options);
   const ProgressMode mode = progress_mode(options.progress, options.quiet);
   const Scene scene = load(options.scene);
-  require_known_effects(scene, "carom compare");
+  require_comparable(scene, "carom compare");
   (void)make_simulation(scene, study.engine);  // whatever is wrong with the scene is said before anything is written
   check_steps(scene, study);
   std::optional<PlayChoice> play;

@@ -44,7 +44,7 @@ ExitCode measure(const HorizonCommandOptions& options) {
   const ProgressMode mode = progress_mode(options.progress, options.quiet);
   const std::string& engine = checked_engine(options.scene);
   const Scene scene = load(options.scene);
-  require_known_effects(scene, "carom horizon");
+  require_comparable(scene, "carom horizon");
   if (options.spectrum)
     if (const std::string words = why_no_spectrum(scene); !words.empty()) throw UsageError("--spectrum: " + words);
   const StopRequest stop;

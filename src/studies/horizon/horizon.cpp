@@ -316,7 +316,7 @@ class HorizonSearch {
 }  // namespace
 
 Horizon measure_horizon(const Scene& scene, const State& start, const HorizonOptions& options) {
-  if (const std::string why = why_no_fixed_step(scene.effects); !why.empty())
+  if (const std::string why = why_no_fixed_step(scene); !why.empty())
     throw std::invalid_argument("no horizon is measured: " + why);
   return HorizonSearch(scene, start, options)();
 }
