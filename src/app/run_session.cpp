@@ -17,7 +17,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <exception>
 #include <limits>
+#include <new>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -95,6 +97,9 @@ class Session {
 
   ExitCode operator()() {
     const auto [report, files, report_failed] = run();
+    if (horizon_failed_)
+      fmt::print(stderr, "carom: {}: the run is complete, and measuring its horizon failed: {}\n",
+                 given_.directory.path().string(), *horizon_failed_);
     if (report_failed)
       fmt::print(stderr, "carom: {}: the run is complete, and its report failed: {}\n", given_.directory.path().string(),
                  *report_failed);
@@ -106,7 +111,7 @@ class Session {
     }
     if (report.stopped == StopReason::interrupted) say_how_to_go_on();
     const ExitCode code = exit_code_of(report);
-    return code == exit_done && report_failed ? exit_failed : code;
+    return code == exit_done && (report_failed || horizon_failed_) ? exit_failed : code;
   }
 
   /// Returns what to do after an error, as the end of its sentence; nothing where nothing was saved.
@@ -132,7 +137,13 @@ class Session {
       line.reset();
     };
     hooks.complete = [&](RunReport& report, const State& start) {
-      append(report, horizon_with_progress(scene, start, {.engine = report.engine}, mode_, stop_));
+      try {
+        append(report, horizon_with_progress(given_.simulation.whole_scene(), start, {.engine = report.engine}, mode_, stop_));
+      } catch (const std::bad_alloc&) {
+        horizon_failed_ = "there is not enough memory to run this scene in every precision at once";
+      } catch (const std::exception& error) {
+        horizon_failed_ = error.what();
+      }
     };
     hooks.warn = [](const std::string& sentence) { fmt::print(stderr, "carom: {}\n", sentence); };
     if (view && options_.pace) hooks.grids.push_back(paced(*view, *options_.pace));
@@ -167,6 +178,7 @@ class Session {
   const double walltime_;
   const StopRequest stop_;  // from here on there is something to save
   bool silence_told_ = false;
+  std::optional<std::string> horizon_failed_;  ///< the sentence where it was asked for and failed
   Runner runner_;
 };
 

@@ -124,6 +124,18 @@ TEST_F(HorizonCommand, RunVerifiesItsOwnHorizonWhenAskedAsTheCommandDoes) {
   }
 }
 
+TEST_F(HorizonCommand, RunAmongObstaclesHasTheHorizonOfTheEngineThatRanIt) {
+  const char* stadium = CAROM_SOURCE_DIR "/docs/scenes/stadium.toml";
+  const Outcome outcome = carom({"run", stadium, "--verify-horizon", "--set", "run.time=20", "--out", "out"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const json summary = json::parse(text_of(file("out/summary.json")));
+  EXPECT_EQ(summary["engine"], "general");
+  EXPECT_EQ(summary["horizon"]["engine"], "general");
+  const Outcome alone = carom({"horizon", stadium, "--engine", "general", "--set", "run.time=20", "--json"});
+  EXPECT_EQ(alone.exit_code, 0) << alone.err;
+  EXPECT_EQ(json::parse(alone.out)["horizon"]["time"], summary["horizon"]["time"]);
+}
+
 TEST_F(HorizonCommand, RunSaysNothingOfHorizonsUnasked) {
   const Outcome outcome = carom({"run", "gas.toml", "--json"});
   EXPECT_FALSE(json::parse(outcome.out).contains("horizon"));

@@ -189,6 +189,22 @@ TEST(Horizon, OfTheEngineAskedForIsWhatTheSentenceSays) {
               AllOf(StartsWith("With 113 bits"), HasSubstr("until about t = "), Not(HasSubstr("cost"))));
 }
 
+TEST(Horizon, OfASceneThatTheGeneralEngineRunsIsThatOfThisEngine) {
+  Scene scene = gas();
+  scene.effects.gravity = Gravity{{0.0, -0.1}};
+  scene.box.boundary = {Boundary::walls, Boundary::walls};
+  const Horizon horizon = horizon_of(scene);
+  EXPECT_EQ(horizon.engine, "general");
+  const HorizonRow* own = horizon.row("general");
+  ASSERT_TRUE(own != nullptr && own->time);
+  EXPECT_EQ(own->bits, std::numeric_limits<double>::digits);
+  EXPECT_EQ(own->against, "textbook-long-double");
+  EXPECT_THAT(sentence_of(horizon), AllOf(StartsWith("In double precision this trajectory is right"),
+                                          HasSubstr("times the cost of the general engine.")));
+  EXPECT_EQ(horizon_of(gas(), {.engine = "textbook"}).row("general"), nullptr);
+  EXPECT_NE(horizon_of(gas(), {.engine = "general"}).row("general"), nullptr);
+}
+
 // ------------------------------------------------------------------------------------------- nothing that could part
 
 TEST(Horizon, WithoutDisksIsTheEndOfTheRun) {

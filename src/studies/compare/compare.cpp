@@ -89,7 +89,8 @@ class Study {
     if (!(pace.collision_rate > 0.0))
       throw std::invalid_argument("no two disks of this scene collide; there is nothing to compare");
     HorizonOptions options;
-    options.engine = options_.engine;
+    const std::vector<std::string> engines = compared_engines(scene_, options_.engine);
+    options.engine = std::find(engines.begin(), engines.end(), "fast") == engines.end() ? "textbook" : "fast";
     options.lyapunov_collisions = options_.lyapunov_collisions;
     options.proceed = [&](const HorizonProgress& progress) {
       return going_on("measuring how far the trajectory can be trusted", 0.05 * progress.fraction);

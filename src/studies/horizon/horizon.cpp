@@ -12,6 +12,7 @@
 #include <carom/simulation.hpp>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -107,7 +108,11 @@ class HorizonSearch {
     result_.tolerance = options_.tolerance;
     result_.run_time = scene_.run.time;
     const std::vector<Precision> precisions = ladder(scene_);
-    const bool fast = make_simulation(scene_, start_).engine() == "fast";
+    const std::string runs_it = make_simulation(scene_, start_).engine();
+    result_.engine = options_.engine == "auto" ? runs_it : options_.engine;
+    const auto is_shown = [&](const std::string& engine) {
+      return (engine == "fast" && runs_it == engine) || (engine == "general" && result_.engine == engine);
+    };
     const auto add = [&](const std::string& engine, int bits, std::size_t against) {
       const std::size_t own = runners_.size();
       runners_.push_back({make_simulation(scene_, start_, engine), own, against});
@@ -122,14 +127,24 @@ class HorizonSearch {
       const std::size_t better = runners_.empty() ? 0 : last_of_ladder_;
       last_of_ladder_ = runners_.size();
       add(precisions[k].engine, precisions[k].bits, better);
-      if (fast && std::string(precisions[k].engine) == "textbook") add("fast", precisions[k].bits, better);
+      if (std::string(precisions[k].engine) != "textbook") continue;
+      for (const char* engine : {"general", "fast"})
+        if (is_shown(engine)) add(engine, precisions[k].bits, better);
     }
-    result_.engine = options_.engine == "auto" ? (fast ? "fast" : "textbook") : options_.engine;
-    if (result_.row(result_.engine) == nullptr)
-      throw std::invalid_argument(fmt::format("no horizon is measured for an engine \"{}\" in this scene", result_.engine));
+    require_row();
     const Disks& disks = runners_.front().simulation.disks();
     disks_ = static_cast<double>(disks.count());
     result_.sigma = disks.mean_diameter();
+  }
+
+  /// An engine has none that does not cover the scene, or is no more precise than one that has.
+  void require_row() const {
+    if (result_.row(result_.engine) != nullptr) return;
+    std::vector<std::string> measured;
+    for (const HorizonRow& row : result_.rows) measured.push_back(row.engine);
+    throw std::invalid_argument(
+        fmt::format("the horizon of the engine \"{}\" is not measured in this scene; choose one of auto, {}", result_.engine,
+                    fmt::join(measured, ", ")));
   }
 
   bool measure_exponent() {

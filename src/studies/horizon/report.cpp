@@ -62,10 +62,10 @@ std::string times(double ratio) { return fmt::format("{:.{}f} times", ratio, rat
 std::string price(const Horizon& horizon, const HorizonRow& own, const HorizonRow& best) {
   const double of_own = cost_of(best, &own);
   if (!(of_own > 0.0)) return "";
-  if (own.engine != "fast") return fmt::format(", at {} the cost", times(of_own));
+  if (own.engine != "fast" && own.engine != "general") return fmt::format(", at {} the cost", times(of_own));
   const double of_double = cost_of(best, horizon.row("textbook"));
-  return fmt::format(", at {} the cost of the same engine in double precision and {} the cost of the fast engine",
-                     times(of_double), times(of_own));
+  return fmt::format(", at {} the cost of the same engine in double precision and {} the cost of the {} engine", times(of_double),
+                     times(of_own), own.engine);
 }
 
 std::string how_far_the_best(const Horizon& horizon, const HorizonRow& own) {
