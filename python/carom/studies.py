@@ -149,7 +149,7 @@ class Horizon:
         rows: a row for each precision. `time` is the time until which positions are right, nan where they are to the end or that is
             not known; `estimated` says whether it is extrapolated. `first_difference` is the number of the first collision that
             differs, counted from 1, nan where none does; `price` is processor time over that of double precision.
-        lyapunov: the largest Lyapunov exponent, 1 / time; None where disks collide too rarely.
+        lyapunov: the largest Lyapunov exponent, 1 / time; None where pairs of disks collide too rarely.
     """
 
     summary: dict[str, Any] = field(repr=False)
@@ -397,8 +397,8 @@ def lyapunov_spectrum(scene: SceneLike, *, collisions: int | None = None, progre
         progress: True for a bar (needs tqdm), or a function of the fraction done.
 
     Raises:
-        SceneError: where the scene is wrong; ValueError: where an argument is, there are too many disks, or something acts that the
-        study does not know; RuntimeError: where disks collide too rarely, or lose energy when they do.
+        SceneError: where the scene is wrong; ValueError: where an argument is, there are too many disks or fewer than two, or
+        something acts that the study does not know; RuntimeError: where pairs collide too rarely, or collisions lose energy.
     """
     import json
 

@@ -136,6 +136,24 @@ TEST_F(HorizonCommand, RunAmongObstaclesHasTheHorizonOfTheEngineThatRanIt) {
   EXPECT_EQ(json::parse(alone.out)["horizon"]["time"], summary["horizon"]["time"]);
 }
 
+TEST_F(HorizonCommand, OfOneDiskSaysThatExponentsAreOfPairs) {
+  const char* sinai = CAROM_SOURCE_DIR "/docs/scenes/sinai.toml";
+  const Outcome plain = carom({"horizon", sinai});
+  EXPECT_EQ(plain.exit_code, 0) << plain.err;
+  EXPECT_THAT(plain.out, HasSubstr("Lyapunov exponent: not measured, since it is over collisions of pairs, and collisions of one "
+                                   "disk with walls or obstacles are none\n"));
+  const Outcome all = carom({"horizon", sinai, "--spectrum"});
+  EXPECT_EQ(all.exit_code, 2);
+  EXPECT_THAT(all.err,
+              HasSubstr("sinai.toml has 1 disk, and exponents are measured over collisions of pairs of disks; take two"));
+}
+
+TEST_F(HorizonCommand, OfOneDiskAmongObstaclesIsComparedSeveralTimesInItsFreeFlights) {
+  const Outcome outcome = carom({"horizon", CAROM_SOURCE_DIR "/docs/scenes/lorentz.toml", "--json"});
+  for (const json& row : json::parse(outcome.out)["horizon"]["rows"])
+    EXPECT_TRUE(row["time"].is_null() || row["time"] > 0.0) << row;
+}
+
 TEST_F(HorizonCommand, RunSaysNothingOfHorizonsUnasked) {
   const Outcome outcome = carom({"run", "gas.toml", "--json"});
   EXPECT_FALSE(json::parse(outcome.out).contains("horizon"));

@@ -30,6 +30,9 @@ namespace {
 /// Comparisons in a mean free time. An error grows by e^0.4 at most from one to the next (dilute gas).
 constexpr double comparisons_per_collision = 8.0;
 
+/// Comparisons of a run in which no pair of disks collides, at most.
+constexpr double most_comparisons = 1024.0;
+
 /// Events between two looks at the clock and at the caller's wish: a fraction of a second in 113 bits.
 constexpr double events_per_comparison = 20'000.0;
 
@@ -174,7 +177,11 @@ class HorizonSearch {
         end_ = 4.0 * 2.0 * static_cast<double>(*scene_.run.collisions) / disks_ / pace_.collision_rate;
     }
     step_ = std::max(end_, beyond_) / 64.0;
-    if (pace_.collision_rate > 0.0) step_ = 1.0 / (comparisons_per_collision * pace_.collision_rate);
+    if (pace_.collision_rate > 0.0) {
+      step_ = 1.0 / (comparisons_per_collision * pace_.collision_rate);
+    } else if (pace_.events_per_time > 0.0) {  // by events with walls and obstacles, as far as comparisons do not take long
+      step_ = std::clamp(disks_ / (comparisons_per_collision * pace_.events_per_time), end_ / most_comparisons, step_);
+    }
     if (pace_.events_per_time > 0.0) step_ = std::min(step_, std::max(events_per_comparison, disks_) / pace_.events_per_time);
     result_.resolution = step_;
     limit_ = options_.limit > 0 ? static_cast<double>(options_.limit) : std::clamp(1500.0 * disks_, 2e6, 2e8);

@@ -174,6 +174,9 @@ std::optional<LyapunovSpectrum> measure_spectrum(const Scene& scene, const State
 }
 
 std::string why_no_spectrum(const Scene& scene) {
+  if (scene.disk_count() < 2)
+    return fmt::format("{} has {}, and exponents are measured over collisions of pairs of disks; take two or more", scene.source,
+                       counted(static_cast<std::uint64_t>(scene.disk_count()), "disk"));
   if (scene.disk_count() <= most_disks_of_a_spectrum) return {};
   return fmt::format("{} has {} disks, and the exponents of at most {} are measured; take fewer disks", scene.source,
                      scene.disk_count(), most_disks_of_a_spectrum);

@@ -18,8 +18,11 @@ std::string in_any_unit(double value, std::optional<double> error) {
   return with_error(value, error.value_or(0.0));
 }
 
-std::string exponent(const Horizon& horizon) {
-  if (!horizon.lyapunov) return "Lyapunov exponent: unknown, disks collide too rarely\n";
+std::string exponent(const Horizon& horizon, const Scene& scene) {
+  if (scene.disk_count() < 2)
+    return "Lyapunov exponent: not measured, since it is over collisions of pairs, and collisions of one disk with walls or "
+           "obstacles are none\n";
+  if (!horizon.lyapunov) return "Lyapunov exponent: unknown; pairs of disks collide too rarely, or collisions lose energy\n";
   const Lyapunov& lambda = *horizon.lyapunov;
   return fmt::format("Lyapunov exponent: {} per time, {} per collision of a disk, over {} collisions\n",
                      in_any_unit(lambda.per_time, lambda.per_time_error),
@@ -59,7 +62,7 @@ std::string horizon_table(const Horizon& horizon, const Scene& scene) {
   table.add({"engine", "bits", "until t", "per disk", "event", "at t", "time", "ratio"});
   for (const HorizonRow& one : horizon.rows) put(table, one);
   return fmt::format("{}{}\n  right: every disk within {:g} diameters\n\n{}", text, table.text(), horizon.tolerance,
-                     exponent(horizon));
+                     exponent(horizon, scene));
 }
 
 }  // namespace carom::cli
