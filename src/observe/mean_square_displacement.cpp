@@ -37,7 +37,7 @@ class MeanSquareDisplacement final : public SavedObservable<MeanSquareDisplaceme
   }
 
   void sample(const State& state, const Totals&) override {
-    const Eigen::Vector2d drift = state.time * non_thermal_velocity(run_, state);
+    const Eigen::Vector2d drift = drift_of(run_, state);
     for (std::size_t s = 0; s < tracked_.size(); ++s)
       if (tracked_[s].channels() > 0) ladders_[s].add(tracked_[s].unwrapped(run_, state, drift));
   }
@@ -74,6 +74,9 @@ class MeanSquareDisplacement final : public SavedObservable<MeanSquareDisplaceme
     const auto add_note = [&](const char* sentence) { found.note += (found.note.empty() ? "" : "; ") + std::string(sentence); };
     if (!run_.scene.box.periodic(0) || !run_.scene.box.periodic(1))
       add_note("between walls errors at long lags are up to 1.3 times too large");
+    for (int axis = 0; axis < 2; ++axis)
+      if (run_.drifts_along(axis) && !run_.scene.box.periodic(1 - axis))
+        add_note("disks drift with a flow that differs from place to place: only its mean is taken out");
     if (run_.disks.count() < few) add_note("errors of so few disks are up to 1.4 times too large");
     put_table(found, std::move(table));
     return found;

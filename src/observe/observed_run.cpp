@@ -5,6 +5,7 @@
 #include "scene/observables_known.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <numbers>
@@ -83,6 +84,16 @@ bool ObservedRun::centre_of_mass_is_thermal(int axis) const {
   return carom::centre_of_mass_is_thermal(scene.box, scene.effects, axis);
 }
 
+bool ObservedRun::drifts_along(int axis) const {
+  const Effects& effects = scene.effects;
+  if (!scene.box.periodic(axis) || !centre_of_mass_is_thermal(axis)) return false;
+  if (effects.gravity && effects.gravity->acceleration[axis] != 0.0) return true;
+  return std::ranges::any_of(std::array{0, 1}, [&](int side) {
+    const std::size_t wall = axis == 0 ? 2 : 0;  // those along x are bottom and top
+    return effects.walls[wall + static_cast<std::size_t>(side)].tangential_velocity.value_or(0.0) != 0.0;
+  });
+}
+
 double ObservedRun::degrees_of_freedom() const {
   double freedom = 2.0 * static_cast<double>(disks.count());
   for (int axis = 0; axis < 2; ++axis)
@@ -111,6 +122,30 @@ Eigen::Vector2d non_thermal_velocity(const ObservedRun& run, const State& state)
   for (int axis = 0; axis < 2; ++axis)
     if (run.centre_of_mass_is_thermal(axis)) common[axis] = 0.0;
   return common;
+}
+
+Eigen::Vector2d drift_velocity(const ObservedRun& run, const State& state) {
+  Eigen::Vector2d drift = non_thermal_velocity(run, state);
+  const double mass = run.disks.total_mass();
+  for (int axis = 0; axis < 2; ++axis)
+    if (mass > 0.0 && run.drifts_along(axis)) drift[axis] = total_momentum(run.disks, state)[axis] / mass;
+  return drift;
+}
+
+Eigen::Vector2d drift_of(const ObservedRun& run, const State& state) {
+  Eigen::Vector2d drift = state.time * non_thermal_velocity(run, state);
+  const double mass = run.disks.total_mass();
+  for (int axis = 0; axis < 2; ++axis) {
+    if (!(mass > 0.0) || !run.drifts_along(axis)) continue;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < run.disks.count(); ++i) {
+      const auto k = static_cast<Eigen::Index>(i);
+      sum += run.disks.mass[i] *
+             (state.positions(axis, k) + static_cast<double>(state.images(axis, k)) * run.scene.box.lengths()[axis]);
+    }
+    drift[axis] = sum / mass;
+  }
+  return drift;
 }
 
 Eigen::Vector2d common_velocity(const ObservedRun& run, const State& state) {

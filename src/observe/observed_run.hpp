@@ -38,6 +38,9 @@ struct ObservedRun {
   [[nodiscard]] bool conserves_momentum(int axis) const;
   /// Returns whether motion of the centre of mass along an axis is a part of the temperature.
   [[nodiscard]] bool centre_of_mass_is_thermal(int axis) const;
+  /// Returns whether all disks drift along an axis: it is periodic, a field or sliding walls push along it, and something takes
+  /// the momentum away. The motion of the centre of mass is then drift and heat together.
+  [[nodiscard]] bool drifts_along(int axis) const;
   /// Returns the number of velocity components that share the temperature: 2 N, less those of the centre of mass that are not
   /// heat.
   [[nodiscard]] double degrees_of_freedom() const;
@@ -54,6 +57,12 @@ struct ObservedRun {
 [[nodiscard]] Eigen::Matrix2Xd peculiar_velocities(const ObservedRun& run, const State& state);
 /// Returns the velocity of the centre of mass along axes on which its motion is not heat; zero along others.
 [[nodiscard]] Eigen::Vector2d non_thermal_velocity(const ObservedRun& run, const State& state);
+/// Returns the velocity of the centre of mass along axes on which its motion is not heat, or not heat alone: see
+/// ObservedRun::drifts_along(). Zero along others.
+[[nodiscard]] Eigen::Vector2d drift_velocity(const ObservedRun& run, const State& state);
+/// Returns a displacement that differs between two states by how far the drift has carried all disks meanwhile: where all of the
+/// common motion is no heat, its velocity times the time, and where the disks are pushed, the place of the centre of mass.
+[[nodiscard]] Eigen::Vector2d drift_of(const ObservedRun& run, const State& state);
 
 /// Velocity of all disks together; zero where it is no more than what rounding leaves.
 [[nodiscard]] Eigen::Vector2d common_velocity(const ObservedRun& run, const State& state);

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <string>
 #include <vector>
@@ -81,6 +82,24 @@ TEST(ObservedCorrelations, DiffusionIsThatOfTheLongestLagWithEnoughDisplacements
       in_a_bath(1.0, 4.5, "mean_square_displacement = { every = 0.5 }").scalar("mean_square_displacement", "diffusion");
   EXPECT_FALSE(none.value);
   EXPECT_EQ(none.note, "the run is too short: of no lag does it hold 800 displacements along an axis");
+}
+
+/// Disks that hardly meet, in a bath and a field g along x, drift at u = g / rate. Between two redraws, s apart, a disk goes v s
+/// + g s^2 / 2. With s exponential that spreads by <(v s + g s^2 / 2 - u s)^2> = 2 kT / m + 2 g^2 in a mean time of 1, at rate 1.
+TEST(ObservedCorrelations, DriftInAFieldIsNoDiffusion) {
+  const std::string observable =
+      "mean_square_displacement = { every = 0.5 }\nvelocity_autocorrelation = { every = 0.5 }\n"
+      "[gravity]\nacceleration = [0.3, 0.0]";
+  const Observed o = in_a_bath(1.0, 1000.0, observable);
+  const Scalar& D = o.scalar("mean_square_displacement", "diffusion");
+  double lag = 0.0;
+  ASSERT_EQ(std::sscanf(D.note.c_str(), "at lag %lf", &lag), 1);
+  EXPECT_NEAR(*D.value, 0.5 * (1.0 - (1.0 - std::exp(-lag)) / lag) + 0.5 * 0.09, 4.0 * *D.error);
+  EXPECT_GT(0.09 * lag / 4.0, 20.0 * *D.error) << "u^2 t / 4, which the drift would add";
+  const std::vector<double>&correlation = o.column("velocity_autocorrelation", 0, "correlation"),
+        &errors = o.column("velocity_autocorrelation", 0, "correlation_error");
+  EXPECT_NEAR(correlation[20], 0.0, 4.0 * errors[20]) << "and not u^2, 0.09";
+  EXPECT_LT(errors[20], 0.01);
 }
 
 TEST(ObservedCorrelations, RelaxationTimeIsWhereTheOverlapFallsToOneOverE) {
