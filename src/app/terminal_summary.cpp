@@ -65,10 +65,10 @@ std::string what_drifts(const RunReport& report) {
   std::vector<std::string> drifting = drifting_numbers(report.observables);
   if (!report.Z_note.empty()) drifting.insert(drifting.begin(), "Z");
   if (drifting.empty()) return {};
-  return fmt::format(
-      "The first and the second half of the run differ by more than chance, so it was not in equilibrium: {}.\n"
-      "Let it equilibrate for longer, run.equilibrate, or take the numbers as those of a change.\n\n",
-      fmt::join(drifting, ", "));
+  const bool expected = says_not_in_equilibrium(report.Z_note) || some_not_in_equilibrium(report.observables);
+  return fmt::format("{}\n{}\n\n", sentence_of_drifts(drifting, expected),
+                     expected ? "Let it equilibrate for longer, run.equilibrate, or take the numbers as those of a change."
+                              : "Take the numbers as those of a change.");
 }
 
 std::string how_far_to_trust(const RunReport& report, const Scene& scene) {

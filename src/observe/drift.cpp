@@ -1,7 +1,9 @@
 #include "observe/drift.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -43,13 +45,12 @@ std::string place_of(const ColumnHalves& column, const Table& table) {
   return words;
 }
 
-bool says_drift(const std::string& note) {
-  return note.find(not_in_equilibrium) != std::string::npos || note.find(not_steady) != std::string::npos;
-}
+bool says_drift(const std::string& note) { return says_not_in_equilibrium(note) || note.find(not_steady) != std::string::npos; }
 
 }  // namespace
 
-void note_drifts(std::vector<Measurement>& measured, const Effects& effects) {
+void note_drifts(std::vector<Measurement>& measured, const Scene& scene) {
+  const Effects& effects = scene.effects;
   std::size_t numbers = 0, rows = 0;
   for (const Measurement& one : measured) {
     for (const Scalar& scalar : one.scalars) numbers += scalar.halves ? 1U : 0U;
@@ -60,7 +61,8 @@ void note_drifts(std::vector<Measurement>& measured, const Effects& effects) {
   const auto is_chance = [&](const Halves& halves, std::size_t compared) {
     return halves.probability * static_cast<double>(compared) >= share * false_alarms;
   };
-  const bool is_steady_expected = !effects.dissipate() && !(effects.growth && effects.growth->rate > 0.0);
+  const bool is_steady_expected =
+      !effects.dissipate() && !(effects.growth && effects.growth->rate > 0.0) && scene.changes.empty();
   for (Measurement& one : measured) {
     for (Scalar& scalar : one.scalars)
       if (scalar.halves && !is_chance(*scalar.halves, numbers))
@@ -83,6 +85,20 @@ std::vector<std::string> drifting_numbers(const std::vector<Measurement>& measur
     if (says_drift(one.note)) names.push_back(fmt::format("{} (its table)", one.name));
   }
   return names;
+}
+
+bool says_not_in_equilibrium(std::string_view note) { return note.find(not_in_equilibrium) != std::string_view::npos; }
+
+bool some_not_in_equilibrium(const std::vector<Measurement>& measured) {
+  return std::ranges::any_of(measured, [](const Measurement& one) {
+    return says_not_in_equilibrium(one.note) ||
+           std::ranges::any_of(one.scalars, [](const Scalar& scalar) { return says_not_in_equilibrium(scalar.note); });
+  });
+}
+
+std::string sentence_of_drifts(const std::vector<std::string>& names, bool in_equilibrium_expected) {
+  return fmt::format("The first and the second half of the run differ by more than chance, so it was not {}: {}.",
+                     in_equilibrium_expected ? "in equilibrium" : "steady", fmt::join(names, ", "));
 }
 
 }  // namespace carom

@@ -155,7 +155,7 @@ std::vector<Measurement> ObservableGroup::results(double time, const Totals& tot
     std::string& note = measured.emplace_back(observable->finish(time, totals)).note;
     if (!on_errors.empty()) note += (note.empty() ? "" : "; ") + on_errors;
   }
-  note_drifts(measured, run_.scene.effects);
+  note_drifts(measured, run_.scene);
   return measured;
 }
 

@@ -161,10 +161,8 @@ TextTable table_of_numbers(const RunReport& report, const RunTheory& theory) {
 Section observed(const RunReport& report, const RunTheory& theory) {
   Section section{.heading = "Observables"};
   if (const std::vector<std::string> drifting = drifting_numbers(report.observables); !drifting.empty())
-    section.blocks.emplace_back(Paragraph{
-        fmt::format("The first and the second half of the run differ by more than chance, so it was not in equilibrium: "
-                    "{}. The remarks below have both.",
-                    fmt::join(drifting, ", "))});
+    section.blocks.emplace_back(
+        Paragraph{sentence_of_drifts(drifting, some_not_in_equilibrium(report.observables)) + " The remarks below have both."});
   TextTable numbers = table_of_numbers(report, theory);
   if (!numbers.rows.empty()) section.blocks.emplace_back(std::move(numbers));
   for (const Measurement& measured : report.observables) {

@@ -252,7 +252,8 @@ SummaryRows rows_of_accuracy(const RunReport& report) {
 }
 
 SummaryRows rows_of_results(const RunReport& report, const Scene* scene) {
-  SummaryRows rows = {{"temperature kT", fmt::format("{:.5g}", report.temperature_mean), what_temperature_counts(scene)}};
+  SummaryRows rows = {{"temperature kT", fmt::format("{:.5g}", report.temperature_mean),
+                       what_temperature_counts(scene) + (report.samples == 0 ? ", at the end: there are no samples" : "")}};
   append(rows, rows_of_effects(report, scene));
   if (!report.Z) rows.push_back({"Z = PA/(NkT)", "none", why_there_is_no_Z(report, scene)});
   if (report.Z)

@@ -47,12 +47,15 @@ TEST_F(TerminalSummary, WallsThatTheSceneNamesTellPressureAndHeat) {
 }
 
 TEST_F(TerminalSummary, TemperatureIsWithoutCommonMotionWhereDisksKeepIt) {
+  report_.samples = 3;
   scene_.box.boundary = {Boundary::periodic, Boundary::periodic};
   EXPECT_THAT(text(), ContainsRegex("temperature kT .* kinetic, without centre-of-mass motion\n"));
   scene_.box.boundary[1] = Boundary::walls;
   EXPECT_THAT(text(), ContainsRegex("temperature kT .* kinetic, without centre-of-mass motion along x\n"));
   scene_.effects.walls[2].temperature = 2.0;  // it gives and takes momentum along itself too
   EXPECT_THAT(text(), ContainsRegex("temperature kT .* kinetic\n"));
+  report_.samples = 0;
+  EXPECT_THAT(text(), ContainsRegex("temperature kT .* kinetic, at the end: there are no samples\n"));
 }
 
 TEST_F(TerminalSummary, EveryEffectHasARow) {

@@ -161,7 +161,7 @@ TEST(DriftOfARun, ThresholdFallsWithTheNumberOfNumbers) {
     all[0].scalars.push_back({.name = "x", .value = 1.0, .halves = Halves{.error = 1.0, .probability = probability}});
     for (std::size_t k = 0; k < others; ++k) all[0].scalars.push_back({.name = "y", .halves = Halves{.error = 1.0}});
     all[0].scalars.push_back({.name = "z", .value = 2.0});
-    note_drifts(all, Effects{});
+    note_drifts(all, Scene{});
     return drifting_numbers(all);
   };
   EXPECT_THAT(measured(0.0089, 0), testing::ElementsAre("a.x"));
@@ -208,7 +208,7 @@ TEST(DriftOfATable, ThresholdFallsWithTheNumberOfRows) {
     all[0].tables.push_back({.name = "a", .columns = {{"r", "", {1.5}}}});
     all[0].tables[0].halves.push_back({"g", {1.5}, Halves{.error = 1.0, .probability = probability}, rows});
     for (std::size_t k = 0; k < numbers; ++k) all[0].scalars.push_back({.name = "y", .halves = Halves{.error = 1.0}});
-    note_drifts(all, Effects{});
+    note_drifts(all, Scene{});
     return !drifting_numbers(all).empty();
   };
   EXPECT_TRUE(drifts(0.000089, 100, 0));
@@ -225,7 +225,7 @@ TEST(DriftOfATable, IsSaidWithBothPlacesInTwoDimensions) {
   comparison.add(Halves{.share = 0.5, .first = 1.0, .rest = 1.0, .error = 0.01, .probability = 0.5});
   comparison.add(Halves{.share = 0.5, .first = 2.0, .rest = 1.0, .error = 0.01, .probability = 1e-9});
   comparison.put(all[0].tables[0], "density", 2);
-  note_drifts(all, Effects{});
+  note_drifts(all, Scene{});
   EXPECT_THAT(all[0].note, HasSubstr("(density at x = 0.75, y = 2.5)"));
 }
 
@@ -366,11 +366,26 @@ TEST(DriftOfARun, OfDisksThatLoseEnergyIsCalledNotSteady) {
   std::vector<Measurement> all(1);
   all[0].scalars.push_back(
       {.name = "x", .note = "old", .halves = Halves{.first = 2.0, .rest = 1.0, .error = 0.1, .probability = 0.0}});
-  Effects effects;
-  effects.collision.restitution = 0.9;
-  note_drifts(all, effects);
+  Scene scene;
+  scene.effects.collision.restitution = 0.9;
+  note_drifts(all, scene);
   EXPECT_EQ(all[0].scalars[0].note,
             "not steady: 2 in the first 50 % of the samples and 1 in the rest, 10.0 standard errors apart; old");
+  EXPECT_FALSE(some_not_in_equilibrium(all));
+}
+
+TEST(DriftOfARun, WhereTheSceneChangesIsCalledNotSteady) {
+  std::vector<Measurement> all(1);
+  all[0].scalars.push_back({.name = "x", .halves = Halves{.first = 2.0, .rest = 1.0, .error = 0.1, .probability = 0.0}});
+  Scene scene;
+  note_drifts(all, scene);
+  EXPECT_TRUE(some_not_in_equilibrium(all));
+  all[0].scalars[0].note.clear();
+  scene.changes = {{1.0, ScaleVelocities{2.0}}};
+  note_drifts(all, scene);
+  EXPECT_TRUE(all[0].scalars[0].note.starts_with("not steady: 2 in the first"));
+  EXPECT_EQ(sentence_of_drifts({"x", "y"}, some_not_in_equilibrium(all)),
+            "The first and the second half of the run differ by more than chance, so it was not steady: x, y.");
 }
 
 }  // namespace
