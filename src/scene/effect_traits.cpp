@@ -200,6 +200,7 @@ std::vector<EffectTraits> make_table() {
                if (counts[k] > 0) parts.push_back(counted(counts[k], kinds[k]));
              return fmt::format("{}", fmt::join(parts, " and "));
            },
+       .excludes = {{"pistons"}},  // how far they get is not known beforehand
        .conserves_momentum = false,
        .thermalises_centre_of_mass = true,
        .conserves_angular_momentum = false,
