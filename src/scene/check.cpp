@@ -115,10 +115,14 @@ void check_regions(const Scene& scene) {
                                       "the disks smaller",
                                       largest, path, narrowest));
     const double fraction = area / area_of(*random->region);
-    if (fraction > closest_packing * (1.0 + touching))
-      throw Refusal(path, fmt::format("the disks of {}.random would cover {:.4g} of it, and equal disks cannot cover more than "
-                                      "{:.4g}; take fewer or smaller disks, or a larger region",
-                                      path, fraction, closest_packing));
+    const bool equal = species.radii.empty();
+    if (fraction > (equal ? closest_packing * (1.0 + touching) : 1.0))
+      throw Refusal(path,
+                    fmt::format("the disks of {}.random would cover {:.4g} of it{}; take fewer or smaller disks, or a larger "
+                                "region",
+                                path, fraction,
+                                equal ? fmt::format(", and equal disks cannot cover more than {:.4g}", closest_packing)
+                                      : std::string(", which is more than all")));
   }
 }
 

@@ -218,6 +218,22 @@ TEST_F(Analysis, WithoutSamplesRefusesWhatLooksAtStates) {
   }
 }
 
+TEST_F(Analysis, OfWhatTheRunMeasuredLeavesWorkOut) {
+  const auto record_with = [&](const std::string& observe) {
+    record(parse_scene(fluid_of_one_kind +
+                       "[collision]\nrule = \"specular\"\n[run]\ntime = 5.0\nsample_every = 0.1\n[observe]\n" + observe),
+           run_);
+  };
+  record_with("work = true\ntemperature = { every = 0.1 }\n");
+  const carom::Analysis analysis = analyse(run_, {});
+  ASSERT_EQ(analysis.observables.size(), 1U);
+  EXPECT_EQ(analysis.observables[0].name, "temperature");
+  EXPECT_THAT(refusal<std::invalid_argument>({"work"}), StartsWith("work and heat are measured while the scene runs"));
+  fs::remove_all(run_);
+  record_with("work = true\n");
+  EXPECT_THAT(refusal<std::invalid_argument>({}), StartsWith("work and heat are measured while the scene runs"));
+}
+
 TEST_F(Analysis, RefusesWhatTheRunHasNot) {
   record_fluid();
   EXPECT_THAT(refusal<std::invalid_argument>({}), HasSubstr("has no [observe] table"));

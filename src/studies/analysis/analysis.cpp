@@ -122,8 +122,10 @@ Analysis analyse(const std::filesystem::path& run_directory, const std::vector<s
   Scene& scene = analysis.scene;
   if (scene.observe.empty())
     throw std::invalid_argument("the run's scene has no [observe] table; name what to measure, such as pressure");
+  const auto is_work = [](const ObservableRequest& request) { return request.name == "work"; };
+  if (observables.empty() && !std::ranges::all_of(scene.observe, is_work)) std::erase_if(scene.observe, is_work);
   for (const ObservableRequest& request : scene.observe)
-    if (request.name == "work")
+    if (is_work(request))
       throw std::invalid_argument(
           "work and heat are measured while the scene runs, and its files do not hold what baths and collisions gave; name other "
           "observables");
