@@ -21,6 +21,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 const std::string scene_line = "scene = \"gas.toml\"\n";
@@ -173,7 +174,8 @@ TEST_F(SweepReader, ATableHasNumbersThatSomePointOfThisVerySweepHas) {
   EXPECT_THAT(observed("pressure.something_else"), HasSubstr("of pressure there are observables.pressure.Z"));
   EXPECT_THAT(observed("overlap.overlap@1"), AllOf(HasSubstr("does not ask for overlap, or it makes tables alone; there are"),
                                                    HasSubstr("observables.pressure.Z")));
-  EXPECT_THAT(observed("non_gaussian.something_else"), HasSubstr("did you mean \"observables.non_gaussian.alpha_2@lag\"?"));
+  EXPECT_THAT(observed("non_gaussian.something_else"),
+              HasSubstr("of non_gaussian there are observables.non_gaussian.alpha_2@lag"));
   EXPECT_THAT(observed("msd.D"), HasSubstr("there is no observable \"msd\"; there are observables.pressure.Z"));
 }
 
@@ -211,6 +213,42 @@ TEST_F(SweepReader, ATableHasCellsByAPlaceInThem) {
   EXPECT_THAT(at("fields.density@2.5,99"), HasSubstr("no run has a row there; a place is in the box"));
   EXPECT_EQ(at("fields.density@2.5,99", "box.boundary = \"walls\"\nwalls.top.velocity = 50.0\n"), "");
   EXPECT_THAT(at("fields_in_time.density@4.5,1,1"), HasSubstr("and a time at most run.time"));
+}
+
+TEST_F(SweepReader, AColumnThatATableHasNotIsToldItsColumns) {
+  const auto at = [&](const std::string& name) {
+    return files_.refusal(scene_line + "table = [\"" + name + "\"]\n[set]\nrun.time = 4.0\n" +
+                          "observe = { fields = { cells = [4, 3] }, viscosity = true }\n");
+  };
+  EXPECT_THAT(
+      at("observables.fields_in_time.kT@1,2.5,1"),
+      HasSubstr("and no column \"kT\" is in the table fields_in_time; its columns, each at a value of time,x,y, are density, "
+                "velocity_x, velocity_y, temperature, stress_xx, "));
+  EXPECT_THAT(at("observables.fields.densty@2.5,1"), HasSubstr("did you mean \"observables.fields.density@2.5,1\"?"));
+  EXPECT_THAT(at("observables.feilds.density@2.5,1"), HasSubstr("did you mean \"observables.fields.density@2.5,1\"?"));
+}
+
+TEST_F(SweepReader, ColumnsThatSayWhichRowItIsAreNoNumbers) {
+  const auto at = [&](const std::string& name) {
+    return files_.refusal(scene_line + "table = [\"observables." + name + "\"]\n[set]\nrun.time = 4.0\n" +
+                          "observe = { fields = { cells = [4, 3] }, viscosity = true, velocity_autocorrelation = true }\n");
+  };
+  for (const char* name : {"fields.x@1,1", "fields.y@1,1", "fields_in_time.y@1,1,1", "fields_in_time.time@1,1,1",
+                           "viscosity.integral_to@1", "velocity_autocorrelation.window@1"})
+    EXPECT_THAT(at(name),
+                AllOf(HasSubstr("says which row it is; its others, each at a value of "), Not(HasSubstr("integral_to,"))))
+        << name;
+}
+
+TEST_F(SweepReader, ANumberOfAnObservableWithoutItsFirstWordIsKnown) {
+  const auto at = [&](const std::string& name) {
+    return files_.refusal(scene_line + "table = [\"" + name + "\"]\n[set]\nrun.time = 4.0\n" +
+                          "observe = { voronoi = true, overlap = true }\n");
+  };
+  EXPECT_THAT(at("voronoi.fraction_5"), HasSubstr("did you mean \"observables.voronoi.fraction_5\"?"));
+  EXPECT_THAT(at("voronoi.fracton_5"), HasSubstr("did you mean \"observables.voronoi.fraction_5\"?"));
+  EXPECT_THAT(at("overlap.chi_4@2"), HasSubstr("did you mean \"observables.overlap.chi_4@2\"?"));
+  EXPECT_THAT(at("overlap.chi_4"), HasSubstr("did you mean \"observables.overlap.chi_4@lag\"?"));
 }
 
 TEST_F(SweepReader, AColumnThatBeginsAsAnotherIsThatOne) {

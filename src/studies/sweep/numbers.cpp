@@ -178,6 +178,12 @@ void sample_those_empty_at_first(ObservableGroup& group, State state) {
     }
 }
 
+/// Returns whether a column of a table says which row it is: of a lag, a time, or a cell.
+bool is_place(std::string_view column) {
+  static constexpr std::array<std::string_view, 6> places = {"lag", "time", "x", "y", "window", "integral_to"};
+  return std::ranges::find(places, column) != places.end();
+}
+
 /// Returns the observable of a number: "pressure" of "observables.pressure.Z"
 std::string observable_of(std::string_view name) {
   const std::string_view rest = name.substr(observables.size());
@@ -285,51 +291,129 @@ std::vector<std::string> number_names(const Scene& given) {
   for (const Measurement& measured : report.observables)
     for (const Table& table : measured.tables)
       for (std::size_t c = 1; c < table.columns.size(); ++c)
-        names.push_back(
-            fmt::format("{}{}.{}@{}", observables, table.name, table.columns[c].name, fmt::join(key_columns(table), ",")));
+        if (!is_place(table.columns[c].name))
+          names.push_back(
+              fmt::format("{}{}.{}@{}", observables, table.name, table.columns[c].name, fmt::join(key_columns(table), ",")));
   return names;
 }
 
 namespace {
 
-/// Returns the column of a table, as far as its @, that begins as `name` does or is nearest to it; empty where none is near.
-std::string near_column(const std::string& name, const std::vector<std::string>& numbers) {
-  std::vector<std::string> columns;
-  for (const std::string& number : numbers)
-    if (const std::size_t sign = number.find('@'); sign != std::string::npos) columns.push_back(number.substr(0, sign));
-  const auto longer = std::ranges::find_if(columns, [&](const std::string& column) { return column.starts_with(name); });
-  if (longer != columns.end()) return *longer;
-  return std::string(detail::nearest_word(name, std::vector<std::string_view>(columns.begin(), columns.end())));
+/// Returns the part of a name of `observable` that is its own, "Z" of "observables.pressure.Z", without what stands behind its @.
+std::string_view own_part(std::string_view name, std::string_view observable) {
+  const std::size_t begin = std::min(name.size(), observables.size() + observable.size() + 1);
+  return name.substr(begin, name.find('@', begin) - begin);
+}
+
+/// Returns what may have been meant by a name of an observable or of a table that there is: a number or a column that begins as
+/// its own part does or is near to it; empty where none is.
+std::string meant_in_observable(const std::string& name, const std::vector<std::string>& numbers) {
+  const std::string observable = observable_of(name);
+  const std::size_t sign = name.find('@');
+  std::vector<const std::string*> all;
+  std::vector<std::string_view> words;
+  for (const std::string& number : numbers) {
+    const bool of_a_table = number.find('@') != std::string::npos;
+    if (!number.starts_with(observables) || observable_of(number) != observable || (sign != std::string::npos && !of_a_table))
+      continue;
+    all.push_back(&number);
+    words.push_back(own_part(number, observable));
+  }
+  const std::string_view own = own_part(name, observable);
+  if (own.empty() || is_place(own)) return {};
+  auto found = std::ranges::find_if(words, [&](std::string_view word) { return word.starts_with(own); });
+  if (found == words.end()) found = std::ranges::find(words, detail::nearest_word(own, words));
+  if (found == words.end()) return {};
+  const std::string& meant = *all[static_cast<std::size_t>(found - words.begin())];
+  return sign == std::string::npos ? meant : meant.substr(0, meant.find('@')) + name.substr(sign);
+}
+
+/// Returns the number or the column that is few edits away from a name, whatever observable that is of.
+std::string meant_anywhere(const std::string& name, const std::vector<std::string>& numbers) {
+  constexpr std::size_t most_edits = 3;  // names of observables are long, and a third of one is another
+  const std::size_t sign = name.find('@');
+  std::vector<std::string_view> words;
+  for (const std::string_view number : numbers)
+    if (number.starts_with(observables) && (sign == std::string::npos || number.find('@') != std::string_view::npos))
+      words.push_back(number.substr(0, number.find('@')));
+  const std::string_view whole = std::string_view(name).substr(0, sign);
+  const std::string_view near = detail::nearest_word(whole, words);
+  if (near.empty() || detail::edit_distance(whole, near) > most_edits) return {};
+  return std::string(near) + (sign == std::string::npos ? "" : name.substr(sign));
+}
+
+std::string did_you_mean(std::string_view name) { return fmt::format("no run has that number; did you mean \"{}\"?", name); }
+
+/// Returns what is wrong with the values behind the @ of a column that there is; nothing where there is none of that name.
+std::optional<std::string> fault_of_place(const std::string& name, const std::vector<std::string>& numbers) {
+  const std::size_t sign = name.find('@');
+  if (sign == std::string::npos) return {};
+  const auto form = std::ranges::find_if(numbers, [&](const std::string& number) {
+    return number.size() > sign && number[sign] == '@' && number.compare(0, sign, name, 0, sign) == 0;
+  });
+  if (form == numbers.end()) return {};
+  const std::string columns = form->substr(sign + 1);
+  const std::size_t count = split_at_commas(columns).size();
+  const std::optional<TableNumber> wanted = table_number(name);
+  if (!wanted || wanted->at.size() != count)
+    return fmt::format("behind @ there is to be a value of {}, such as {}{}", columns, form->substr(0, sign + 1),
+                       fmt::join(std::vector<double>(count, 1.5), ","));
+  if (columns == "lag") return "no run is that long; a lag is at most run.time";
+  return "no run has a row there; a place is in the box, and a time at most run.time";
+}
+
+/// Returns which columns there are in the table of a name with @; nothing where no table is called so.
+std::optional<std::string> fault_of_column(const std::string& name, const std::vector<std::string>& numbers) {
+  const std::string table = observable_of(name);
+  std::string places;
+  std::vector<std::string_view> columns;
+  for (const std::string& number : numbers) {
+    const std::size_t sign = number.find('@');
+    if (sign == std::string::npos || observable_of(number) != table) continue;
+    places = number.substr(sign + 1);
+    if (const std::string_view column = own_part(number, table); !column.ends_with("_error")) columns.push_back(column);
+  }
+  if (name.find('@') == std::string::npos || columns.empty()) return {};
+  const std::string_view own = own_part(name, table);
+  const std::string which = detail::excerpt(own, 40);
+  const std::string beginning =
+      is_place(own) ? fmt::format("the column \"{}\" of the table {} says which row it is; its others", which, table)
+                    : fmt::format("no column \"{}\" is in the table {}; its columns", which, table);
+  return fmt::format("{}, each at a value of {}, are {}", beginning, places, fmt::join(columns, ", "));
+}
+
+std::string fault_of_observed_number(const std::string& name, const std::vector<std::string>& numbers) {
+  if (const std::optional<std::string> fault = fault_of_place(name, numbers)) return *fault;
+  const std::string of_observable = meant_in_observable(name, numbers);
+  const std::string meant = of_observable.empty() ? meant_anywhere(name, numbers) : of_observable;
+  const bool is_another_column =
+      of_observable.empty() && meant.starts_with(fmt::format("{}{}.", observables, observable_of(name)));
+  if (!meant.empty() && !is_another_column) return did_you_mean(meant);
+  const std::optional<std::string> fault = fault_of_column(name, numbers);
+  return fault ? *fault : fault_of_observable(name, numbers);
 }
 
 }  // namespace
 
 std::string fault_of_number_name(const std::string& name, const std::vector<std::string>& numbers) {
-  if (const std::size_t sign = name.find('@'); sign != std::string::npos) {
-    const auto form = std::find_if(numbers.begin(), numbers.end(), [&](const std::string& number) {
-      return number.size() > sign && number[sign] == '@' && number.compare(0, sign, name, 0, sign) == 0;
-    });
-    if (form != numbers.end()) {
-      const std::string columns = form->substr(sign + 1);
-      const std::size_t count = split_at_commas(columns).size();
-      const std::optional<TableNumber> wanted = table_number(name);
-      if (!wanted || wanted->at.size() != count)
-        return fmt::format("behind @ there is to be a value of {}, such as {}{}", columns, form->substr(0, sign + 1),
-                           fmt::join(std::vector<double>(count, 1.5), ","));
-      if (columns == "lag") return "no run is that long; a lag is at most run.time";
-      return "no run has a row there; a place is in the box, and a time at most run.time";
-    }
-    const std::string of_table = near_column(name.substr(0, sign), numbers);
-    if (!of_table.empty()) return fmt::format("no run has that number; did you mean \"{}{}\"?", of_table, name.substr(sign));
-  }
-  const std::vector<std::string_view> words(numbers.begin(), numbers.end());
-  const std::string_view near = detail::nearest_word(name, words);
-  if (!near.empty()) return fmt::format("no run has that number; did you mean \"{}\"?", near);
-  if (name.starts_with(observables)) return fault_of_observable(name, numbers);
-  std::vector<std::string_view> all;
-  std::copy_if(words.begin(), words.end(), std::back_inserter(all),
-               [](std::string_view number) { return number.find("_error") == std::string_view::npos; });
-  return fmt::format("no run has that number; there are {}", fmt::join(all, ", "));
+  if (name.starts_with(observables)) return fault_of_observed_number(name, numbers);
+  const std::string observed = std::string(observables) + name;
+  const std::string form = observed.substr(0, observed.find('@'));
+  for (const std::string& number : numbers)
+    if (number == observed || number.substr(0, number.find('@')) == form)
+      return did_you_mean(form == observed ? number : observed);
+  std::vector<std::string_view> words;
+  std::ranges::copy_if(numbers, std::back_inserter(words),
+                       [](const std::string& number) { return !number.starts_with(observables); });
+  if (const std::string_view near = detail::nearest_word(name, words); !near.empty()) return did_you_mean(near);
+  if (std::ranges::any_of(numbers, [&](const std::string& number) {
+        return number.starts_with(observables) && observable_of(number) == observable_of(observed);
+      }))
+    return fault_of_observed_number(observed, numbers);
+  std::erase_if(words, [](std::string_view number) { return number.find("_error") != std::string_view::npos; });
+  const bool observes = std::ranges::any_of(numbers, [](const std::string& number) { return number.starts_with(observables); });
+  return fmt::format("no run has that number; there are {}{}", fmt::join(words, ", "),
+                     observes ? ", and those of observables, such as \"observables.pressure.Z\"" : "");
 }
 
 }  // namespace carom

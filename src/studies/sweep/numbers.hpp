@@ -55,8 +55,8 @@ struct TableNumber {
 [[nodiscard]] bool is_usual_number(std::string_view name);
 
 /// Returns the names of all numbers that a run of the scene has in its summary, with a value or null; and after them
-/// "observables.TABLE.COLUMN@FIRST" for each column of the tables of its observables, where FIRST is the name of the table's
-/// first column, or "x,y" where its rows are cells of a grid. Nothing is drawn and nothing run.
+/// "observables.TABLE.COLUMN@FIRST" for each column of the tables of its observables but those that say which row it is, where
+/// FIRST is the name of the table's first column, or "x,y" where its rows are cells of a grid. Nothing is drawn and nothing run.
 [[nodiscard]] std::vector<std::string> number_names(const Scene& scene);
 
 /// Returns the end of a sentence that says why `name` is none of the numbers, and which there are.
