@@ -225,6 +225,17 @@ TEST_F(ScenesSweep, ListsTheCommandsOfWhatIsToDoWhichMakeTheSameRuns) {
   EXPECT_EQ(results(), before);
 }
 
+TEST_F(SweepCommand, SaysWhichPointsAreThereAlready) {
+  write_text(file("gas-sweep.toml"),
+             "scene = \"gas.toml\"\n[grid]\n\"run.time\" = [1, 1.0]\n[[points]]\nname = \"twin\"\n\"run.time\" = 1e0\n");
+  const Outcome outcome = sweep({"--list"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.err,
+            "carom: gas-sweep.toml: points whose scenes are there already are left out: time=1.0 (as time=1), twin (as "
+            "time=1)\n");
+  EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 1) << outcome.out;
+}
+
 TEST_F(SweepCommand, ANumberOfTheTableThatNoRunHasIsNamed) {
   write_text(file("gas-sweep.toml"), "scene = \"gas.toml\"\ntable = [\"time\", \"walls.left.force\"]\n");
   const Outcome refused = sweep();  // the gas has no walls: that is known before anything runs

@@ -118,10 +118,23 @@ TEST_F(SweepReader, WhatIsWrongWithTheFileIsSaidWithItsPlace) {
 }
 
 TEST_F(SweepReader, TwoPointsOfOneNameAreRefused) {
-  EXPECT_EQ(files_.refusal(scene_line + "[grid]\nrun.time = [1.0, 1.0]\n"),
-            "sweep.toml:3:18: two points are called time=1.0, the other one in line 3; they are the same: leave one out");
   EXPECT_EQ(files_.refusal(scene_line + "[[points]]\nname = \"a\"\nrun.time = 1.0\n[[points]]\nname = \"a\"\nrun.time = 2.0\n"),
             "sweep.toml:5:1: two points are called a, the other one in line 2; give one of them a name of its own");
+}
+
+TEST_F(SweepReader, OfPointsWithOneSceneTheFirstStays) {
+  const Sweep sweep = files_.load(scene_line +
+                                  "seeds = 2\n[grid]\n\"collision.restitution\" = [1, 1.0, 0.9, 0.9]\n"
+                                  "[[points]]\nname = \"elastic\"\ncollision.restitution = 1\n"
+
+                                  "[[points]]\nname = \"short\"\nrun.time = 1.0\n");
+  EXPECT_THAT(names_of(sweep), ElementsAre("restitution=1", "restitution=0.9", "short"));
+  EXPECT_EQ(sweep.run_count(), 6U);
+  EXPECT_THAT(sweep.overrides_of(5), ElementsAre("run.time=1.0", "run.seed=2"));
+  std::vector<std::string> repeated;
+  for (const RepeatedPoint& point : sweep.repeated) repeated.push_back(point.name + " of " + point.of);
+  EXPECT_THAT(repeated,
+              ElementsAre("restitution=1.0 of restitution=1", "restitution=0.9 of restitution=0.9", "elastic of restitution=1"));
 }
 
 TEST_F(SweepReader, WhatASceneRefusesIsSaidOfThePointThatAsksForIt) {

@@ -18,6 +18,7 @@
 #include <carom/pages/page.hpp>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -126,6 +127,18 @@ void run_all(Desk& desk, int threads, SweepServer* server, const StopRequest& st
   here.get();
 }
 
+/// Says which points are left out, because they are there already.
+void tell_of_repeated_points(const Sweep& sweep) {
+  if (sweep.repeated.empty()) return;
+  constexpr std::size_t most = 10;
+  std::vector<std::string> names;
+  for (const RepeatedPoint& point : sweep.repeated)
+    if (names.size() < most) names.push_back(fmt::format("{} (as {})", point.name, point.of));
+  const std::size_t more = sweep.repeated.size() - names.size();
+  fmt::print(stderr, "carom: {}: points whose scenes are there already are left out: {}{}\n", sweep.source,
+             fmt::join(names, ", "), more == 0 ? "" : fmt::format(" and {} more", more));
+}
+
 /// Warns of numbers that were asked for and that no run has.
 void warn_of_absent_numbers(const Sweep& sweep, const SweepResults& results) {
   if (results.count(RunState::finished) == 0) return;
@@ -151,6 +164,7 @@ ExitCode sweep_scene(const SweepCommandOptions& options, const Invocation& invoc
   if (!options.checkpoint_every.empty()) (void)read_option("--checkpoint-every", options.checkpoint_every, saving_plan);
   const Sweep sweep = load_sweep(options.path, options.overrides);
   const fs::path path = directory_for(options);
+  tell_of_repeated_points(sweep);
   if (options.list) {
     fmt::print("{}", commands_of(sweep, runs_to_do(sweep, path, options.force), path, invocation));
     return exit_done;

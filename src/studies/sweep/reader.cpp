@@ -13,10 +13,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <map>
 #include <set>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -309,17 +311,50 @@ Scene checked_scene(const Sweep& sweep, const SweepPoint& point, const std::vect
   }
 }
 
+/// Two points of one name must be the same, and the second one is left out.
 void check_names(const Sweep& sweep) {
   std::map<std::string, const SweepPoint*> names;
   for (const SweepPoint& point : sweep.points) {
     const auto [other, fresh] = names.emplace(point.name, &point);
-    if (!fresh)
-      throw SceneError(point.where, fmt::format("two points are called {}, the other one in line {}; {}", point.name,
-                                                other->second->where.line,
-                                                point.values == other->second->values ? "they are the same: leave one out"
-                                                                                      : "give one of them a name of its own"));
+    if (!fresh && point.values != other->second->values)
+      throw SceneError(point.where,
+                       fmt::format("two points are called {}, the other one in line {}; give one of them a name of its own",
+                                   point.name, other->second->where.line));
   }
 }
+
+/// The points whose scenes are all different. Scenes are told apart as they are resolved, so that 1 and 1.0 are one value.
+class DifferentPoints {
+ public:
+  explicit DifferentPoints(const Sweep& sweep) : sweep_(sweep) {}
+
+  /// Returns whether the scene of the point, with the first of the seeds, is that of no point before.
+  bool add(std::size_t point, const Scene& scene) {
+    const std::string resolved = resolved_toml(scene);
+    std::vector<std::size_t>& alike = by_hash_[std::hash<std::string>()(resolved)];  // a scene may hold a million positions
+    const auto first = std::ranges::find_if(
+        alike, [&](std::size_t other) { return resolved_toml(sweep_.scene_of(other * sweep_.seeds.size())) == resolved; });
+    if (first != alike.end()) {
+      repeated_.push_back({sweep_.points[point].name, sweep_.points[*first].name});
+      return false;
+    }
+    alike.push_back(point);
+    points_.push_back(sweep_.points[point]);
+    return true;
+  }
+
+  /// Leaves the others out.
+  void keep_in(Sweep& sweep) && {
+    sweep.points = std::move(points_);
+    sweep.repeated = std::move(repeated_);
+  }
+
+ private:
+  const Sweep& sweep_;
+  std::unordered_map<std::size_t, std::vector<std::size_t>> by_hash_;
+  std::vector<SweepPoint> points_;
+  std::vector<RepeatedPoint> repeated_;
+};
 
 }  // namespace
 
@@ -343,12 +378,15 @@ Sweep load_sweep(const std::string& path, const std::vector<std::string>& overri
                                  sweep.points.size(), sweep.seeds.size(), most_runs));
   sweep.drawn = false;
   MissingNumbers missing(sweep);
+  DifferentPoints different(sweep);
   for (std::size_t point = 0; point < sweep.points.size(); ++point) {
     const Scene scene = checked_scene(sweep, sweep.points[point], sweep.overrides_of(point * sweep.seeds.size()));
+    if (!different.add(point, scene)) continue;
     sweep.drawn = sweep.drawn || run_is_drawn(scene);
     missing.look_in(scene);
   }
   missing.refuse_the_first();
+  std::move(different).keep_in(sweep);
   return sweep;
 }
 

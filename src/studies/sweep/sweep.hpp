@@ -22,6 +22,12 @@ struct SweepPoint {
   Location where;                   ///< place of the point as a whole
 };
 
+/// A point that is left out, because its scene is that of a point before it.
+struct RepeatedPoint {
+  std::string name;
+  std::string of;  ///< name of the point that stays
+};
+
 struct Sweep {
   std::string source;      ///< the sweep file's path
   std::string text;        ///< text of the sweep file
@@ -31,7 +37,8 @@ struct Sweep {
   std::vector<std::string> shared;      ///< changes at every point, as overrides: "run.time=2"
   std::vector<Location> shared_places;  ///< place of each of these
   std::vector<std::string> keys;        ///< keys that change, "disks.0.radius", in the order of the file
-  std::vector<SweepPoint> points;
+  std::vector<SweepPoint> points;       ///< each with a scene of its own
+  std::vector<RepeatedPoint> repeated;  ///< what the file lists besides
   std::vector<std::uint64_t> seeds;
   std::vector<std::string> table;      ///< numbers of summary.json that the results are to hold; empty: the usual ones
   std::vector<Location> table_places;  ///< place of each of these
@@ -68,7 +75,7 @@ inline constexpr std::array<std::string_view, 5> sweep_products = {"runs.csv", "
 [[nodiscard]] bool is_point_name(std::string_view name);
 
 /// Reads the file at `path` and the scene that it names; the scene of every point is read and checked. Throws SceneError: one
-/// sentence with the place in the sweep file.
+/// sentence with the place in the sweep file. Of points that have one scene, whatever they are called, the first one stays.
 /// `overrides` change the scene at every point, "run.time=2", after what the file says for all.
 [[nodiscard]] Sweep load_sweep(const std::string& path, const std::vector<std::string>& overrides = {});
 
