@@ -53,7 +53,8 @@ Masses masses_of(const Scene& scene) {
 
 std::string_view why_no_Z(const Effects& effects, bool detail::EffectTraits::*passed_over) {
   if (std::abs(effects.collision.roughness.value_or(-1.0)) != 1.0) return "collisions take energy away";
-  if (has_walls_of_different_temperature(effects)) return "walls and thermostat have different temperatures";
+  if (has_walls_of_different_temperature(effects))
+    return effects.bath_temperature() ? "walls and thermostat have different temperatures" : "walls have different temperatures";
   return detail::first_reason(effects, &detail::EffectTraits::why_no_Z, passed_over);
 }
 
