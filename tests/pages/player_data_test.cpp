@@ -2,6 +2,7 @@
 
 #include "pages/player_data.hpp"
 
+#include "pages/html_parts.hpp"
 #include "pages/number_columns.hpp"
 #include "pages/player_page.hpp"
 #include "support/child_process.hpp"
