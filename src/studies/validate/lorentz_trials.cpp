@@ -104,7 +104,8 @@ TrialResult lorentz_diffusion(const std::string& trial, double gap, const Effort
   constexpr double step = 1.0;
   const double residence = theory::lorentz_residence_time(gap), largest_error = 1e-3;
   const auto memory = static_cast<std::size_t>(6.0 * residence / step);
-  // Of ways without memory, 2 memory / steps is the square of the relative error of the sum. With theirs it is a twentieth larger.
+  // Of ways without memory, 2 memory / steps is the square of the relative error of the sum. With theirs it is a twentieth
+  // larger.
   const double steps = 2.0 * static_cast<double>(memory) / std::pow(0.9 * largest_error, 2);
   const double hits = steps * step / theory::lorentz_mean_free_path(gap) * (effort.full ? 1.0 : 0.01);
   const BallFollower::Means means = follow_ball(gap, hits, step, memory, effort, result);
