@@ -79,11 +79,6 @@ ExitCode run_scene(const RunOptions& options, const Invocation& invocation, Proc
   if (options.pace && !options.watch) throw UsageError("--pace sets the speed of --watch: give --watch too");
   if (options.pace && !(*options.pace > 0.0 && std::isfinite(*options.pace)))
     throw UsageError(fmt::format("--pace {:g}: it is simulated time per second and must be positive", *options.pace));
-  if (options.verify_horizon && !scene.changes.empty())
-    throw UsageError(fmt::format(
-        "{}: --verify-horizon follows trajectories that go on as they began, and this scene has [[changes]]; leave out "
-        "one of the two: the changes with --set 'changes=[]'",
-        scene.source));
   if (options.verify_horizon) require_comparable(scene, "--verify-horizon");
   if (options.method != "exact" && !scene.observe.empty())
     throw UsageError(fmt::format("--method {}: [observe] measures exact trajectories; leave out one of the two", options.method));

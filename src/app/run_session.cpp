@@ -140,7 +140,7 @@ class Session {
       try {
         append(report, horizon_with_progress(given_.simulation.whole_scene(), start, {.engine = report.engine}, mode_, stop_));
       } catch (const std::bad_alloc&) {
-        horizon_failed_ = "there is not enough memory to run this scene in every precision at once";
+        horizon_failed_ = no_memory_for_horizon;
       } catch (const std::exception& error) {
         horizon_failed_ = error.what();
       }

@@ -77,9 +77,7 @@ ExitCode horizon(const HorizonCommandOptions& options) {
   try {
     return measure(options);
   } catch (const std::bad_alloc&) {
-    throw std::runtime_error(
-        fmt::format("{}: there is not enough memory to run this scene in every precision at once; fewer disks need less",
-                    options.scene.path));
+    throw std::runtime_error(fmt::format("{}: {}; fewer disks need less", options.scene.path, no_memory_for_horizon));
   }
 }
 

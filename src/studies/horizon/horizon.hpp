@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 
 namespace carom {
 
@@ -27,11 +28,16 @@ struct HorizonOptions {
   std::function<bool(const HorizonProgress&)> proceed = {};  ///< several times a second; false ends it
 };
 
-/// Runs the scene from `start` in every precision in lockstep, comparing positions some eight times per mean free time, until
-/// each has left the next better one by the tolerance. Where nothing parts: to the end of the scene's run, or where disks are
-/// chaotic and the run is shorter than they would take to part, three times as long as the exponent says, but no longer than
-/// 1000 collisions per disk. All engines begin with the numbers of `start`, rounded to single precision for the row of
-/// float: that rounding counts as its error. The best precision has no better one; its horizon is extrapolated.
+/// What to say where measure_horizon() throws std::bad_alloc.
+inline constexpr std::string_view no_memory_for_horizon =
+    "there is not enough memory to run this scene in every precision at once";
+
+/// Runs the scene from `start` in every precision in lockstep, comparing positions some eight times per mean free time, or where
+/// no pair of disks collides per flight between walls and obstacles (1024 times at most), until each has left the next better one
+/// by the tolerance. Where nothing parts: to the end of the scene's run, or where disks are chaotic and the run is shorter than
+/// they would take to part, three times as long as the exponent says, but no longer than 1000 collisions per disk. All engines
+/// begin with the numbers of `start`, rounded to single precision for the row of float: that rounding counts as its error. The
+/// best precision has no better one; its horizon is extrapolated.
 ///
 /// Memory: all engines at once, 2.5 kB per disk. A precision that is no better than the one before it (long double
 /// on some machines) is left out. Throws as make_simulation, and std::invalid_argument where options.engine is none of the rows.
