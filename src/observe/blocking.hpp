@@ -25,8 +25,8 @@ inline constexpr double most_error_of_halves = 0.05;
 [[nodiscard]] std::optional<Halves> compared_halves(double share, double first, double rest, double error_of_rest, double blocks);
 
 /// Returns how many of a few long blocks are the first part of a run, a third or more; the rest is an even number of them.
-/// Returns 0 for fewer than 16, which are too few. The error of the rest is the larger one of those by blocks and by pairs of
-/// them, and the number of blocks that of the pairs: correlations may then reach from one block into the next.
+/// Returns 0 for fewer than 16, which are too few. The rest counts as half as many independent blocks, for correlations may reach
+/// from one into the next.
 [[nodiscard]] std::size_t first_of_long_blocks(std::size_t blocks);
 
 /// Returns the halves of offset + factor x from those of x.

@@ -96,7 +96,7 @@ constexpr std::size_t states_alone = 4;  ///< the first fields, which need no co
 using FieldValues = std::array<double, all_fields.size()>;
 struct FieldEstimates {
   FieldValues mean{}, variance{};
-  FieldValues squares{}, products{};  ///< of what leaving out a stretch changes: by itself, and with the stretch that follows
+  FieldValues covariance{};  ///< the same sum as `variance`, but of products of each stretch with the next
 };
 
 /// Returns the fields in a cell from the sums of so many steps. Without disks there is a density alone, without area nothing.
@@ -351,7 +351,7 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
       for (std::size_t f = 0; f < names_.size(); ++f) {
         table.columns[first + 2 * f].values.push_back(all.mean[f]);
         table.columns[first + 2 * f + 1].values.push_back(count < least_for_errors ? unknown : std::sqrt(all.variance[f]));
-        correlations[f].add(all.mean[f], all.squares[f], all.products[f]);
+        correlations[f].add(all.mean[f], all.variance[f], all.covariance[f]);
       }
     }
     for (std::size_t f = 0; f < (count < least_for_errors ? 0 : names_.size()); ++f) {
@@ -365,7 +365,7 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
     for (std::size_t c = 0; c < coming_.size(); ++c) {
       before.push_back(estimates(c, 0, begin));
       rest.push_back(estimates(c, begin, count));
-      for (std::size_t f = 0; f < names_.size(); ++f) of_rest[f].add(rest[c].mean[f], rest[c].squares[f], rest[c].products[f]);
+      for (std::size_t f = 0; f < names_.size(); ++f) of_rest[f].add(rest[c].mean[f], rest[c].variance[f], rest[c].covariance[f]);
     }
     for (std::size_t f = 0; f < names_.size(); ++f) {
       const double factor = variance_by_correlated_blocks(of_rest[f].value(), count - begin);
@@ -393,12 +393,13 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
       const FieldValues without = fields_of(others, steps_of(end - begin - 1), step_, areas_[c]);
       for (std::size_t f = 0; f < without.size(); ++f) {
         const double changed = without[f] - found.mean[f];
-        found.squares[f] += changed * changed;
-        found.products[f] += changed * std::exchange(before[f], changed);
+        found.variance[f] += changed * changed;
+        found.covariance[f] += changed * std::exchange(before[f], changed);
       }
     }
     const auto left_out = static_cast<double>(end - begin);  // one at a time
-    for (std::size_t f = 0; f < found.variance.size(); ++f) found.variance[f] = (left_out - 1.0) / left_out * found.squares[f];
+    for (FieldValues* sums : {&found.variance, &found.covariance})
+      for (double& sum : *sums) sum *= (left_out - 1.0) / left_out;
     return found;
   }
 

@@ -12,8 +12,8 @@ class NextBlockCorrelation {
  public:
   explicit NextBlockCorrelation(std::size_t count) : count_(count) {}
 
-  /// Adds a series by its mean, and the sums of its squared deviations from it and of the products of each with the next. A
-  /// series without scatter but rounding, or with unknown numbers, takes no part.
+  /// Adds a series by its mean, and the sums of its squared deviations from it and of the products of each with the next, or both
+  /// sums in one proportion. A series without scatter but rounding, or with unknown numbers, takes no part.
   void add(double mean, double squares, double products);
 
   /// Returns the correlation, 0 without a series. To first order in 1 / count it is free of the bias that comes from deviations
