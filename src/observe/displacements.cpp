@@ -26,7 +26,7 @@ class NonGaussian final : public SavedObservable<NonGaussian> {
       : SavedObservable(request, run), followed_(request, run), fourth_(run.species_count()) {}
 
   void sample(const State& state, const Totals&) override {
-    const Eigen::Vector2d drift = drift_of(run_, state);
+    const Eigen::Vector2d drift = non_thermal_displacement(run_, state);
     followed_.add(run_, state, drift, [&](std::size_t s, std::size_t row, std::span<const double> moved) {
       double square = 0.0, fourth = 0.0;
       for (std::size_t c = 0; c < moved.size(); c += 2) {
@@ -74,7 +74,7 @@ class VanHove final : public SavedObservable<VanHove> {
         densities_(run.species_count()) {}
 
   void sample(const State& state, const Totals&) override {
-    const Eigen::Vector2d drift = drift_of(run_, state);
+    const Eigen::Vector2d drift = non_thermal_displacement(run_, state);
     followed_.add(run_, state, drift, [&](std::size_t s, std::size_t row, std::span<const double> moved) {
       if (row == 0) return;
       const int power = std::ilogb(LaggedStates::lag(row));

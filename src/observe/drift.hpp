@@ -30,6 +30,7 @@ void note_drifts(std::vector<Measurement>& measured, const Scene& scene);
 
 /// Returns whether a remark says that a number is not yet at equilibrium: to equilibrate for longer may help.
 [[nodiscard]] bool says_not_in_equilibrium(std::string_view note);
+/// Returns whether a number or a table of these has a remark that says so.
 [[nodiscard]] bool some_not_in_equilibrium(const std::vector<Measurement>& measured);
 
 /// Returns the sentence that says of which numbers the halves differ: "... so it was not in equilibrium: Z, pressure.Z."

@@ -105,7 +105,7 @@ class IntermediateScattering final : public SavedObservable<IntermediateScatteri
   }
 
   void sample(const State& state, const Totals&) override {
-    const Eigen::Vector2d drift = drift_of(run_, state);
+    const Eigen::Vector2d drift = non_thermal_displacement(run_, state);
     followed_.add(run_, state, drift, [&](std::size_t s, std::size_t row, std::span<const double> moved) {
       for (WaveNumber& number : numbers_) number.add_displacements(s, row, moved);
     });

@@ -37,7 +37,7 @@ class MeanSquareDisplacement final : public SavedObservable<MeanSquareDisplaceme
   }
 
   void sample(const State& state, const Totals&) override {
-    const Eigen::Vector2d drift = drift_of(run_, state);
+    const Eigen::Vector2d drift = non_thermal_displacement(run_, state);
     for (std::size_t s = 0; s < tracked_.size(); ++s)
       if (tracked_[s].channels() > 0) ladders_[s].add(tracked_[s].unwrapped(run_, state, drift));
   }

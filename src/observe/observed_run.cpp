@@ -5,7 +5,6 @@
 #include "scene/observables_known.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 #include <numbers>
@@ -88,10 +87,9 @@ bool ObservedRun::drifts_along(int axis) const {
   const Effects& effects = scene.effects;
   if (!scene.box.periodic(axis) || !centre_of_mass_is_thermal(axis)) return false;
   if (effects.gravity && effects.gravity->acceleration[axis] != 0.0) return true;
-  return std::ranges::any_of(std::array{0, 1}, [&](int side) {
-    const std::size_t wall = axis == 0 ? 2 : 0;  // those along x are bottom and top
-    return effects.walls[wall + static_cast<std::size_t>(side)].tangential_velocity.value_or(0.0) != 0.0;
-  });
+  const std::size_t wall = axis == 0 ? 2 : 0;  // those along x are bottom and top
+  const auto slides = [](const WallProperties& one) { return one.tangential_velocity.value_or(0.0) != 0.0; };
+  return slides(effects.walls[wall]) || slides(effects.walls[wall + 1]);
 }
 
 double ObservedRun::degrees_of_freedom() const {
@@ -125,15 +123,15 @@ Eigen::Vector2d non_thermal_velocity(const ObservedRun& run, const State& state)
 }
 
 Eigen::Vector2d drift_velocity(const ObservedRun& run, const State& state) {
-  Eigen::Vector2d drift = non_thermal_velocity(run, state);
+  Eigen::Vector2d drift(0.0, 0.0);
   const double mass = run.disks.total_mass();
   for (int axis = 0; axis < 2; ++axis)
     if (mass > 0.0 && run.drifts_along(axis)) drift[axis] = total_momentum(run.disks, state)[axis] / mass;
   return drift;
 }
 
-Eigen::Vector2d drift_of(const ObservedRun& run, const State& state) {
-  Eigen::Vector2d drift = state.time * non_thermal_velocity(run, state);
+Eigen::Vector2d non_thermal_displacement(const ObservedRun& run, const State& state) {
+  Eigen::Vector2d displacement = state.time * non_thermal_velocity(run, state);
   const double mass = run.disks.total_mass();
   for (int axis = 0; axis < 2; ++axis) {
     if (!(mass > 0.0) || !run.drifts_along(axis)) continue;
@@ -143,9 +141,9 @@ Eigen::Vector2d drift_of(const ObservedRun& run, const State& state) {
       sum += run.disks.mass[i] *
              (state.positions(axis, k) + static_cast<double>(state.images(axis, k)) * run.scene.box.lengths()[axis]);
     }
-    drift[axis] = sum / mass;
+    displacement[axis] = sum / mass;
   }
-  return drift;
+  return displacement;
 }
 
 Eigen::Vector2d common_velocity(const ObservedRun& run, const State& state) {

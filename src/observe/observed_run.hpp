@@ -57,12 +57,12 @@ struct ObservedRun {
 [[nodiscard]] Eigen::Matrix2Xd peculiar_velocities(const ObservedRun& run, const State& state);
 /// Returns the velocity of the centre of mass along axes on which its motion is not heat; zero along others.
 [[nodiscard]] Eigen::Vector2d non_thermal_velocity(const ObservedRun& run, const State& state);
-/// Returns the velocity of the centre of mass along axes on which its motion is not heat, or not heat alone: see
-/// ObservedRun::drifts_along(). Zero along others.
+/// Returns the velocity of the centre of mass along axes on which the disks drift (ObservedRun::drifts_along()); zero along
+/// others.
 [[nodiscard]] Eigen::Vector2d drift_velocity(const ObservedRun& run, const State& state);
-/// Returns a displacement that differs between two states by how far the drift has carried all disks meanwhile: where all of the
-/// common motion is no heat, its velocity times the time, and where the disks are pushed, the place of the centre of mass.
-[[nodiscard]] Eigen::Vector2d drift_of(const ObservedRun& run, const State& state);
+/// Returns a displacement that differs between two states by how far common motion has carried all disks meanwhile: where that
+/// motion is no heat, non_thermal_velocity() times the time, and along axes on which they drift, the place of the centre of mass.
+[[nodiscard]] Eigen::Vector2d non_thermal_displacement(const ObservedRun& run, const State& state);
 
 /// Velocity of all disks together; zero where it is no more than what rounding leaves.
 [[nodiscard]] Eigen::Vector2d common_velocity(const ObservedRun& run, const State& state);

@@ -24,7 +24,7 @@ class Overlap final : public SavedObservable<Overlap> {
         squares_(run.species_count()) {}
 
   void sample(const State& state, const Totals&) override {
-    const Eigen::Vector2d drift = drift_of(run_, state);
+    const Eigen::Vector2d drift = non_thermal_displacement(run_, state);
     followed_.add(run_, state, drift, [&](std::size_t s, std::size_t row, std::span<const double> moved) {
       double near = 0.0;
       for (std::size_t c = 0; c < moved.size(); c += 2)

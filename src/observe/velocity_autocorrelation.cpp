@@ -43,8 +43,8 @@ class VelocityAutocorrelation final : public SavedObservable<VelocityAutocorrela
 
   void sample(const State& state, const Totals&) override {
     Eigen::Matrix2Xd peculiar = peculiar_velocities(run_, state);
-    peculiar.colwise() -= drift_velocity(run_, state) - non_thermal_velocity(run_, state);
-    const Eigen::Vector2d drift = drift_of(run_, state);
+    peculiar.colwise() -= drift_velocity(run_, state);
+    const Eigen::Vector2d drift = non_thermal_displacement(run_, state);
     std::vector<double> squares(tracked_.size());
     for (std::size_t i = 0; i < run_.disks.count(); ++i)
       squares[static_cast<std::size_t>(run_.disks.species[i])] += peculiar.col(static_cast<Eigen::Index>(i)).squaredNorm();
