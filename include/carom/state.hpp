@@ -127,6 +127,9 @@ struct Totals : Counts {
   std::array<double, 4> wall_shear{};
   /// Energy, as heat and work, that disks gave to the walls left, right, bottom, top. All energies are in mass length^2 / time^2.
   std::array<double, 4> wall_energy{};
+  /// What of wall_energy is work: at each contact the force on the wall times its velocity. Walls at rest take none. A piston's
+  /// is the energy of motion that contacts give it.
+  std::array<double, 4> wall_work{};
   double dissipated = 0.0;         ///< energy lost in pair collisions; for growing disks in the frame of their surfaces
   double thermostat_energy = 0.0;  ///< energy that disks gained from redrawn velocities
   double growth_energy = 0.0;      ///< energy that disks gained from growing surfaces, less that removed by rescaling velocities

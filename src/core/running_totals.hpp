@@ -25,7 +25,7 @@ inline void add_counts(Counts& to, const Counts& more) {
 /// Totals as they grow: sums without rounding.
 struct RunningTotals : Counts {
   ExactSum virial, virial_yx;
-  std::array<ExactSum, 4> wall_impulse, wall_shear, wall_energy;
+  std::array<ExactSum, 4> wall_impulse, wall_shear, wall_energy, wall_work;
   ExactSum dissipated, thermostat_energy, growth_energy, shear_energy;
   std::array<ExactSum, 2> obstacle_impulse;
   ExactSum circle_impulse;
@@ -34,8 +34,10 @@ struct RunningTotals : Counts {
   void add(const RunningTotals& more) {
     add_counts(*this, more);
     virial.add(more.virial), virial_yx.add(more.virial_yx);
-    for (std::size_t w = 0; w < wall_impulse.size(); ++w)
-      wall_impulse[w].add(more.wall_impulse[w]), wall_shear[w].add(more.wall_shear[w]), wall_energy[w].add(more.wall_energy[w]);
+    for (std::size_t w = 0; w < wall_impulse.size(); ++w) {
+      wall_impulse[w].add(more.wall_impulse[w]), wall_shear[w].add(more.wall_shear[w]);
+      wall_energy[w].add(more.wall_energy[w]), wall_work[w].add(more.wall_work[w]);
+    }
     dissipated.add(more.dissipated), thermostat_energy.add(more.thermostat_energy);
     growth_energy.add(more.growth_energy), shear_energy.add(more.shear_energy);
     for (std::size_t k = 0; k < obstacle_impulse.size(); ++k) obstacle_impulse[k].add(more.obstacle_impulse[k]);
@@ -59,6 +61,7 @@ struct RunningTotals : Counts {
       totals.wall_impulse[w] = wall_impulse[w].value();
       totals.wall_shear[w] = wall_shear[w].value();
       totals.wall_energy[w] = wall_energy[w].value();
+      totals.wall_work[w] = wall_work[w].value();
     }
     totals.dissipated = dissipated.value();
     totals.thermostat_energy = thermostat_energy.value();

@@ -73,6 +73,7 @@ class Walls {
     Real impulse = 0;  ///< that the side took, outward
     Real shear = 0;    ///< momentum that the side took along itself, towards +x or +y
     Real energy = 0;   ///< that the side took from the disk
+    Real work = 0;     ///< what of that energy is work: the force on the side times its velocity; the rest is heat
     /// The speed of which it took its share (effects/vanishing.hpp); infinite where it took none, and where the disk is pressed
     /// against it, so that contacts never end.
     Real smallness = infinity<Real>;
@@ -91,7 +92,7 @@ class Walls {
     using std::max;
     const Real closing = max<Real>((outward + expansion) - surface, 0);
     Real after;
-    Real small = infinity<Real>, shear = 0;
+    Real small = infinity<Real>, shear = 0, motion = surface;
     if (s.temperature > 0) {
       RandomStream random(seed_, Stream::thermal_walls, 4 * draws_++ + index_of(wall));
       const DiffuseVelocity drawn = diffuse_velocity(random, s.temperature, static_cast<double>(mass));
@@ -111,10 +112,12 @@ class Walls {
         s.displacement = s.displacement_at(t);
         s.velocity = surface + change * (mass / (mass + s.mass));
         s.t = t;
+        motion = (surface + s.velocity) / 2;  // its impulse times this is the energy of motion that the piston gains
       }
     }
     v[axis] = sign * after;
-    return {mass * (outward - after), shear, mass * (before - v.squaredNorm()) / 2, small};
+    const Real impulse = mass * (outward - after);
+    return {impulse, shear, mass * (before - v.squaredNorm()) / 2, impulse * motion + shear * s.sliding, small};
   }
 
   /// Returns whether the side moves by itself after a contact, which makes all predictions with it void.

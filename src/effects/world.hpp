@@ -71,6 +71,7 @@ struct AnyWorld {
     totals.wall_impulse[index_of(wall)].add(slowed * hit.impulse);
     if (hit.shear != 0.0) totals.wall_shear[index_of(wall)].add(slowed * hit.shear);
     totals.wall_energy[index_of(wall)].add(slowed * slowed * hit.energy);
+    if (hit.work != 0.0) totals.wall_work[index_of(wall)].add(slowed * slowed * hit.work);
     return hit.smallness;
   }
   /// Whether a contact changes the motion of this wall or obstacle: it is a piston.

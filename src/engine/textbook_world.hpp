@@ -133,6 +133,7 @@ struct TextbookWorld {
     totals.wall_impulse[index_of(wall)].add(static_cast<double>(slowed * hit.impulse));
     if (hit.shear != 0) totals.wall_shear[index_of(wall)].add(static_cast<double>(slowed * hit.shear));
     totals.wall_energy[index_of(wall)].add(static_cast<double>(slowed * slowed * hit.energy));
+    if (hit.work != 0) totals.wall_work[index_of(wall)].add(static_cast<double>(slowed * slowed * hit.work));
     return hit.smallness;
   }
 

@@ -3,11 +3,11 @@
 // collisions and walls dissipate, as negative heat. The sum of all is the energy that disks have gained: of motion, of spin and
 // of pairs in wells or steps.
 //
-// A wall gives -E, E the energy that it has received in Totals. What of it is work follows from the momentum that the wall has
-// received, outward J and along itself S: work = -(J u + S s) for a wall that moves outward at u and slides at s; the rest is
-// heat. A piston is elastic, and does work alone. No engine sums what drag takes, and what growing rough disks gain with their
-// moments of inertia: it is the energy gained that no other part explains. The numbers at the end are sums, not means, and have
-// no errors: a run has one of them, and the seeds of a sweep give their distribution. ThinnedRows keeps them against time.
+// A wall gives what it has received in Totals, with the other sign: wall_work as work, and the rest of wall_energy as heat. A
+// wall without temperature or restitution does work alone. No engine sums what drag takes, and what growing rough disks gain
+// with their moments of inertia: it is the energy gained that no other part explains. The numbers at the end are sums, not
+// means, and have no errors: a run has one of them, and the seeds of a sweep give their distribution. ThinnedRows keeps them
+// against time.
 
 #include "observe/energy.hpp"
 #include "observe/observables.hpp"
@@ -56,12 +56,10 @@ class Work final : public SavedObservable<Work>, public ChangeFollower {
   void start(const State& state) override {
     potential_ = potential(state);
     energy_ = energy(state);
-    look_at_walls(state);
   }
 
   void sample(const State& state, const Totals& totals) override {
     add(state, totals);
-    look_at_walls(state);
     if (!rows_.takes_next()) return;
     std::vector<double> row = {total(work), total(heat)};
     for (const Part& part : parts_) row.push_back(sums_[part.at]);
@@ -80,7 +78,6 @@ class Work final : public SavedObservable<Work>, public ChangeFollower {
     acting_ = effects;
     sums_[of_changes] += energy(state) - energy_before_;
     potential_ = potential(state);
-    look_at_walls(state);
   }
 
   void end(const State& state, const Totals& totals) override { add(state, totals); }
@@ -104,7 +101,7 @@ class Work final : public SavedObservable<Work>, public ChangeFollower {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(potential_, field_before_, energy_, sums_, velocity_, energies_, impulses_, shears_, rows_);
+    archive(potential_, field_before_, energy_, sums_, energies_, works_, rows_);
   }
 
  private:
@@ -145,25 +142,14 @@ class Work final : public SavedObservable<Work>, public ChangeFollower {
     return pairs;
   }
 
-  void look_at_walls(const State& state) {
-    for (std::size_t side = 0; side < 4; ++side) velocity_[side] = state.walls.size() == 4 ? state.walls[side].velocity : 0.0;
-  }
-
-  /// Adds what has happened since the totals of before, at the velocities that walls had then.
+  /// Adds what has happened since the totals of before, under the effects that have acted since.
   void add(const State& state, const Totals& totals) {
     if (acting_.gravity) sums_[of_field] = field_before_ + (potential_ - potential(state));
     for (std::size_t side = 0; side < 4; ++side) {
       const WallProperties& wall = acting_.walls[side];
       const double given = energies_[side] - totals.wall_energy[side];
-      double by_motion = given;
-      if (wall.temperature || wall.restitution.value_or(1.0) != 1.0) {
-        // A sine with restitution is refused (scene/check_walls.cpp): its velocity is another at each contact.
-        const double outward = wall.vibration     ? -*wall.vibration
-                               : wall.oscillation ? -2.0 * wall.oscillation->amplitude * wall.oscillation->frequency
-                                                  : (side % 2 == 1 ? velocity_[side] : -velocity_[side]);
-        by_motion = -(totals.wall_impulse[side] - impulses_[side]) * outward -
-                    (totals.wall_shear[side] - shears_[side]) * wall.tangential_velocity.value_or(0.0);
-      }
+      const bool heats = wall.temperature || wall.restitution.value_or(1.0) != 1.0;
+      const double by_motion = heats ? works_[side] - totals.wall_work[side] : given;
       sums_[work_of_left + side] += by_motion;
       sums_[heat_of_left + side] += given - by_motion;
     }
@@ -172,8 +158,7 @@ class Work final : public SavedObservable<Work>, public ChangeFollower {
     sums_[of_bath] = totals.thermostat_energy;
     sums_[of_collisions] = 0.0 - totals.dissipated;  // no negative zero
     energies_ = totals.wall_energy;
-    impulses_ = totals.wall_impulse;
-    shears_ = totals.wall_shear;
+    works_ = totals.wall_work;
     if (!rest_) return;
     sums_[*rest_] = 0.0;
     sums_[*rest_] = energy(state) - energy_ - total(work) - total(heat);
@@ -187,9 +172,8 @@ class Work final : public SavedObservable<Work>, public ChangeFollower {
   double energy_ = 0.0;                   ///< of the disks at the start
   double energy_before_ = 0.0;            ///< of the disks before the change that is being made
   std::array<double, places> sums_{};
-  std::array<double, 4> velocity_{};                          ///< of walls at the last sample
-  std::array<double, 4> energies_{}, impulses_{}, shears_{};  ///< at the last sample
-  ThinnedRows rows_{0};                                       ///< work, heat, and each part
+  std::array<double, 4> energies_{}, works_{};  ///< that walls had received at the last sample
+  ThinnedRows rows_{0};                         ///< work, heat, and each part
 };
 
 }  // namespace

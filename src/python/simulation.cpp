@@ -205,6 +205,7 @@ nb::typed<nb::dict, nb::str, nb::any> dict_of(const Totals& totals) {
   d["wall_impulse"] = std::vector<double>(totals.wall_impulse.begin(), totals.wall_impulse.end());
   d["wall_shear"] = std::vector<double>(totals.wall_shear.begin(), totals.wall_shear.end());
   d["wall_energy"] = std::vector<double>(totals.wall_energy.begin(), totals.wall_energy.end());
+  d["wall_work"] = std::vector<double>(totals.wall_work.begin(), totals.wall_work.end());
   d["obstacle_impulse"] = pair(totals.obstacle_impulse);
   d["circle_impulse"] = totals.circle_impulse;
   d["dissipated"] = totals.dissipated;

@@ -119,8 +119,6 @@ bool contact_distances_differ(const Scene& scene, const Effects& now, const Effe
 /// Observables know one flow and one clock.
 void check_observables(const Scene& scene, const Effects& now, const Effects& before, const std::string& path) {
   if (scene.observe.empty()) return;
-  for (std::size_t w = 0; w < now.walls.size(); ++w)
-    if (const std::string why = why_no_work(scene, now, w); !why.empty()) throw Refusal(path, fmt::format("{}: {}", path, why));
   if (contact_distances_differ(scene, now, before))
     throw Refusal(
         path, fmt::format("{} changes [non_additivity], and observables know one contact distance of two species only; remove "

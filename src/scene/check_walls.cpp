@@ -173,16 +173,6 @@ void check_sweep(const Scene& scene, std::size_t w) {
 
 }  // namespace
 
-std::string why_no_work(const Scene& scene, const Effects& effects, std::size_t w) {
-  const WallProperties& wall = effects.walls[w];
-  const bool is_sine = wall.oscillation && wall.oscillation->moves() && wall.oscillation->form == WaveForm::sine;
-  if (wall.restitution.value_or(1.0) == 1.0 || !(is_sine || wall.mass)) return {};
-  if (std::ranges::none_of(scene.observe, [](const ObservableRequest& request) { return request.name == "work"; })) return {};
-  return fmt::format(
-      "walls.{} has restitution and {}, so observe.work cannot tell its work from its heat; remove restitution or observe.work",
-      wall_names[w], is_sine ? "vibrates as a sine" : "is a piston, whose velocity each hit changes");
-}
-
 void check_walls(const Scene& scene) {
   for (std::size_t w = 0; w < scene.effects.walls.size(); ++w) {
     const WallProperties& wall = scene.effects.walls[w];
@@ -199,7 +189,6 @@ void check_walls(const Scene& scene) {
                                 "take boundary.{} = \"walls\"",
                                 wall_names[w], axis_names[axis], axis_names[axis]));
     }
-    if (const std::string why = why_no_work(scene, scene.effects, w); !why.empty()) throw Refusal(path_of(w), why);
     check_sweep(scene, w);
     check_vibrating_sweep(scene, w);
     check_amplitude(scene, w);

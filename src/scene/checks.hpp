@@ -80,9 +80,6 @@ void check_effects(const Scene& scene);
 /// The deltas of [non_additivity] are those of species, and two disks can touch without a third image between them.
 void check_non_additivity(const Scene& scene);
 void check_walls(const Scene& scene);
-/// Returns why observe.work, which the scene may ask for, cannot tell work from heat at a wall with these effects; empty where it
-/// can.
-std::string why_no_work(const Scene& scene, const Effects& effects, std::size_t w);
 void check_growth(const Scene& scene);
 /// Speeds, places and masses are such that the arithmetic of every engine keeps its digits, and runs come to their end.
 void check_scales(const Scene& scene);

@@ -139,37 +139,65 @@ TEST(OscillatingWalls, ABallBouncesAsInTheMapOfHighPrecision) {
       }
 }
 
+/// What the floor gave to disks of mass 1 in a run, found from the events alone.
+struct Given {
+  double impulse = 0.0, work = 0.0, energy = 0.0;
+};
+
+/// Returns what a floor gives that moves like that. Requires a simulation at its start that records events.
+Given given_by_floor(Simulation& simulation, const Oscillation& motion, double until) {
+  std::vector<V> velocities;
+  for (Eigen::Index i = 0; i < simulation.state().velocities.cols(); ++i)
+    velocities.emplace_back(simulation.state().velocities.col(i));
+  std::vector<double> since(velocities.size(), 0.0);
+  simulation.run_until(until);
+  Given given;
+  for (const Event& event : simulation.take_events()) {
+    const auto i = static_cast<std::size_t>(event.disk);
+    const double before = velocities[i].y() - (event.time - since[i]), after = event.velocity.y();
+    if (event.partner == wall_bottom) {
+      given.work += (after - before) * static_cast<double>(floor_at(motion, event.time).velocity);
+      given.impulse += after - before;
+      given.energy += (after - before) * (after + before) / 2;
+    }
+    velocities[i] = event.velocity, since[i] = event.time;
+    if (event.partner >= 0) {
+      const auto j = static_cast<std::size_t>(event.partner);
+      velocities[j] = event.partner_velocity, since[j] = event.time;
+    }
+  }
+  return given;
+}
+
 TEST(OscillatingWalls, GiveTheEnergyOfTheirImpulsesTimesTheirVelocity) {
   for (const char* engine : engines_with_effects)
     for (const Oscillation& motion : {sine(0.25, 2.0), sawtooth(0.25, 2.0)}) {
-      const Scene scene = vibrated_gas(motion);
-      Simulation simulation = make_simulation(scene, engine);
+      Simulation simulation = make_simulation(vibrated_gas(motion), engine);
       simulation.record_events(true);
       const double energy = energy_of(simulation);
-      std::vector<V> velocities;
-      for (Eigen::Index i = 0; i < simulation.state().velocities.cols(); ++i)
-        velocities.emplace_back(simulation.state().velocities.col(i));
-      std::vector<double> since(velocities.size(), 0.0);
-      simulation.run_until(20.0);
-      double work = 0.0, impulse = 0.0;
-      for (const Event& event : simulation.take_events()) {
-        const auto i = static_cast<std::size_t>(event.disk);
-        const double before = velocities[i].y() - (event.time - since[i]);
-        if (event.partner == wall_bottom) {
-          work += (event.velocity.y() - before) * static_cast<double>(floor_at(motion, event.time).velocity);
-          impulse += event.velocity.y() - before;
-        }
-        velocities[i] = event.velocity, since[i] = event.time;
-        if (event.partner >= 0) {
-          const auto j = static_cast<std::size_t>(event.partner);
-          velocities[j] = event.partner_velocity, since[j] = event.time;
-        }
-      }
+      const Given found = given_by_floor(simulation, motion, 20.0);
       const double given = -simulation.totals().wall_energy[2];
       EXPECT_GT(given, 10.0);
-      EXPECT_NEAR(work, given, 1e-11 * impulse * 2 * 3.2 * 0.5) << engine;
+      EXPECT_NEAR(found.work, given, 1e-11 * found.impulse * 2 * 3.2 * 0.5) << engine;
+      EXPECT_NEAR(-simulation.totals().wall_work[2], given, 1e-11 * found.impulse) << engine;
       EXPECT_NEAR(energy + given_by(simulation), energy_of(simulation), 1e-11 * (energy + given));
       EXPECT_THAT(simulation.check_invariants(), testing::IsEmpty());
+    }
+}
+
+TEST(OscillatingWalls, TakeHeatBesideTheirWorkWhereTheyAreInelastic) {
+  for (const char* engine : engines_with_effects)
+    for (const Oscillation& motion : {sine(0.25, 2.0), sawtooth(0.25, 2.0)}) {
+      Scene scene = vibrated_gas(motion);
+      scene.effects.walls[2].restitution = 0.8;
+      Simulation simulation = make_simulation(scene, engine);
+      simulation.record_events(true);
+      const Given found = given_by_floor(simulation, motion, 20.0);
+      const Totals totals = simulation.totals();
+      const double rounding = 1e-11 * found.impulse * 2 * 3.2;
+      EXPECT_NEAR(-totals.wall_work[2], found.work, rounding) << engine;
+      EXPECT_NEAR(-totals.wall_energy[2], found.energy, rounding) << engine;
+      EXPECT_GT(found.work - found.energy, 1.0) << engine << ": the floor takes heat";
     }
 }
 

@@ -21,7 +21,8 @@ namespace {
 struct Observed {
   std::map<std::string, double> numbers;
   std::vector<Table> tables;
-  double gained = 0.0;  ///< energy of motion, of spin, and of pairs in wells
+  double gained = 0.0;          ///< energy of motion, of spin, and of pairs in wells
+  double lost_by_piston = 0.0;  ///< energy of motion and of its load, where the right wall is one
   Totals totals;
 };
 
@@ -35,6 +36,14 @@ double energy_of_disks(const Simulation& simulation) {
   return energy;
 }
 
+/// Returns the energy of motion and of the load of the right wall of a box 10 high; 0 where it is no piston.
+double energy_of_piston(const Simulation& simulation) {
+  const WallProperties& wall = simulation.scene().effects.walls[1];
+  if (!wall.mass) return 0.0;
+  const WallState piston = simulation.state().walls.at(1);
+  return *wall.mass * piston.velocity * piston.velocity / 2 + wall.load.value() * 10.0 * piston.position;
+}
+
 Observed observed(const std::string& effects, const std::string& boundary = "\"walls\"", const std::string& run = "time = 8",
                   const std::string& every = "{ every = 0.125 }") {
   const Scene scene = parse_scene("[box]\nx = [0, 20]\ny = [0, 10]\nboundary = " + boundary +
@@ -42,7 +51,7 @@ Observed observed(const std::string& effects, const std::string& boundary = "\"w
                                   "velocities = { temperature = 1 }\n[run]\n" +
                                   run + "\n[observe]\nwork = " + every + "\n" + effects);
   Simulation simulation = make_simulation(scene);
-  const double before = energy_of_disks(simulation);
+  const double before = energy_of_disks(simulation), of_piston = energy_of_piston(simulation);
   Observation observation(simulation);
   RunHooks hooks;
   observation.attach(hooks);
@@ -53,6 +62,7 @@ Observed observed(const std::string& effects, const std::string& boundary = "\"w
     found.tables = one.tables;
   }
   found.gained = energy_of_disks(simulation) - before;
+  found.lost_by_piston = of_piston - energy_of_piston(simulation);
   found.totals = simulation.totals();
   return found;
 }
@@ -104,6 +114,23 @@ TEST(Work, OfOtherEffectsAddsUpToo) {
   expect_sum(observed("[collision]\nrule = \"specular\"\nroughness = 0.5\n[growth]\nrate = 0.01\n"));
   expect_sum(observed(specular + "[walls]\nright = { mass = 20.0, load = 0.5 }\n"));
   expect_sum(observed(specular + "[shear]\nrate = 0.2\n", "\"periodic\""));
+}
+
+TEST(Work, OfAnInelasticPistonIsTheEnergyOfMotionThatContactsTakeFromIt) {
+  const Observed found = observed(specular + "[walls]\nright = { mass = 20.0, load = 0.5, restitution = 0.7 }\n");
+  expect_sum(found);
+  // What the load has given to the piston, and the piston has not kept, it has given to the disks.
+  EXPECT_NEAR(found.numbers.at("work_right"), found.lost_by_piston, 1e-10);
+  EXPECT_LT(found.numbers.at("heat_right"), -1.0);
+}
+
+TEST(Work, OfAnInelasticSineIsToldFromItsHeat) {
+  const Observed found = observed(
+      specular + "[walls]\nbottom = { vibration = { form = \"sine\", amplitude = 0.3, frequency = 2.0 }, restitution = 0.7 }\n");
+  expect_sum(found);
+  EXPECT_EQ(found.numbers.at("work_bottom"), -found.totals.wall_work[2]);
+  EXPECT_GT(found.numbers.at("work_bottom"), 1.0);
+  EXPECT_LT(found.numbers.at("heat_bottom"), -1.0);
 }
 
 TEST(Work, IsThatOfTheEndWhereverTheRunEnds) {
