@@ -13,7 +13,6 @@
 #include <csignal>
 #include <filesystem>
 #include <set>
-#include <sstream>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -50,13 +49,6 @@ rule = "specular"
 [run]
 time = 5.0
 )";
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::istringstream stream(text);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
 
 /// Fixed-step methods of a periodic box, where the two naive ones do not differ.
 const std::size_t steppers = fixed_step_names().size() - 1;

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -24,13 +23,6 @@ using ::testing::StartsWith;
 const std::vector<std::string> every_command = {
     "init", "check",  "run",   "resume",  "extend",  "info",  "verify", "playground", "analyze",  "diff", "play",
     "help", "report", "movie", "horizon", "compare", "sweep", "bench",  "hardcases",  "validate", "man",  "completion"};
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
 
 class HelpCommand : public ProgramTest {
  protected:

@@ -2,10 +2,10 @@
 
 #include "core/fixed_axis.hpp"
 #include "core/flight.hpp"
+#include "core/real.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
-#include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -36,8 +36,6 @@ RC_GTEST_PROP(PropertyFixedAxis, APositionComesBackWithinHalfAStepAndItsOwnRound
     RC_ASSERT(std::abs(back - place) <= bound);
   }
 }
-
-using Quad = boost::multiprecision::cpp_bin_float_quad;
 
 Quad middle_of(const FixedAxis& axis) { return (Quad(axis.lower) + Quad(axis.upper)) / 2; }
 
