@@ -14,7 +14,7 @@ if(NOT EXISTS ${page})
     return()
   endif()
   execute_process(COMMAND emcmake cmake -S ${SOURCE_DIR}/playground -B ${WASM_DIR} -G Ninja --log-level=WARNING
-                          -D CAROM_OPTIMIZATION=-O2 COMMAND_ERROR_IS_FATAL ANY)
+                          -D CAROM_OPTIMIZATION=-O1 COMMAND_ERROR_IS_FATAL ANY)
   execute_process(COMMAND ${CMAKE_COMMAND} --build ${WASM_DIR} --target page COMMAND_ERROR_IS_FATAL ANY)
   set(page ${WASM_DIR}/playground.html)
 endif()
