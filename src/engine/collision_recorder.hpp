@@ -71,9 +71,14 @@ class CollisionRecorder {
   }
   /// Appends events to the log that other recorders have logged.
   void append(std::span<const Event> events) { log_.insert(log_.end(), events.begin(), events.end()); }
-  /// Leaves out the next so many collisions that would be handed to the listener, and the next so many events of the log: they
-  /// have been recorded before, and happen once more.
-  void skip(std::uint64_t collisions, std::uint64_t events) { collisions_to_skip_ = collisions, events_to_skip_ = events; }
+  /// So many collisions that were handed on last, and so many events that were appended to the log last, happen once more: takes
+  /// them out of the log where they are still there, and leaves out the next so many others.
+  void skip(std::uint64_t collisions, std::uint64_t events) {
+    const auto here = std::min<std::uint64_t>(events, log_.size());
+    log_.erase(log_.end() - static_cast<std::ptrdiff_t>(here), log_.end());
+    collisions_to_skip_ += collisions;
+    events_to_skip_ += events - here;
+  }
 
   /// Takes back the collision that was recorded last: it would have left a velocity that is not finite.
   void withdraw_collision() {

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <sstream>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace carom::test {
@@ -464,6 +465,26 @@ TEST(Threads, FindEveryWindowThatTheirHalosAreTooNarrowFor) {
       redone += shared.thread_counts().windows_redone;
     }
   EXPECT_GT(redone, 10U);
+}
+
+/// The log is taken once, when windows have been void, right and void again.
+TEST(Threads, LogTheEventsOfOneAfterWindowsThatWereVoid) {
+  const Scene scene = lean_gas(4000, 0.5, Boundary::periodic);
+  std::uint64_t redone = 0;
+  const auto logged = [&](const Threads& threads) {
+    Simulation simulation = make_simulation(scene);
+    simulation.set_threads(threads);
+    simulation.record_events(true);
+    simulation.run_until(6.0);
+    redone += simulation.thread_counts().windows_redone;
+    std::vector<std::tuple<double, std::int32_t, std::int32_t>> events;
+    for (const Event& event : simulation.take_events()) events.emplace_back(event.time, event.disk, event.partner);
+    return events;
+  };
+  const auto alone = logged({});
+  for (const double halo : {4.0, 5.0, 6.0})
+    EXPECT_TRUE(logged({.domains = 4, .halo = halo, .events_per_window = 0.3}) == alone) << halo;
+  EXPECT_GT(redone, 4U);
 }
 
 /// A window that is void takes back what happened since the whole engine was last up to date, which is more than a caller may ask
