@@ -7,6 +7,7 @@
 #include "io/output_error.hpp"
 #include "io/same_results.hpp"
 #include "terminal/output_paths.hpp"
+#include "terminal/processes.hpp"
 #include "terminal/reading_process.hpp"
 #include "text/numbers.hpp"
 
@@ -130,7 +131,8 @@ ExitCode verify(const VerifyOptions& options, const Invocation& invocation) {
         fmt::format("{}: this run was interrupted, and another one would not end there; verify a run that came to its end",
                     options.directory));
   const ScratchDirectory scratch;
-  if (const ExitCode code = run_again(run, scratch.path(), options, invocation); code != exit_done) return code;
+  const bool is_first = launch().rank == 0;  // of the processes that compute the run again together
+  if (const ExitCode code = run_again(run, scratch.path(), options, invocation); code != exit_done || !is_first) return code;
   return in_reading_process(options.directory, [&] {
     const ReadingLimit limit(options.directory);
     const SameResults found = as_usage_error([&] { return compare_results(options.directory, scratch.path() / "again"); });

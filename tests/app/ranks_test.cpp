@@ -85,6 +85,7 @@ TEST_F(RanksOfRunCommand, GiveTheFilesOfOneCore) {
   EXPECT_EQ(summary("on3")["cores"]["domains"], 3);
   EXPECT_THAT(carom({"info", "on2/summary.json"}).out, HasSubstr("2 in each of 2 processes"));
   EXPECT_EQ(carom({"verify", "on3"}).exit_code, 0);
+  EXPECT_EQ(mpirun("2", {"verify", "one"}).exit_code, 0) << "the run again, by both, which the first compares";
 }
 
 TEST_F(RanksOfRunCommand, SayMistakesOnce) {
