@@ -27,7 +27,7 @@ struct ThreadCounts {
   std::size_t ranks = 1;    ///< processes: carom/ranks.hpp
   std::size_t domains = 1;
   std::uint64_t windows = 0;
-  std::uint64_t windows_redone = 0;  ///< windows that were void, and were redone by the engine alone up to the next epoch
+  std::uint64_t windows_redone = 0;  ///< windows that were void: the engine alone redid their epoch up to their end
   std::uint64_t shared_out = 0;      ///< times that the disks were shared out
   std::uint64_t events = 0;          ///< of any kind, each counted once
   std::uint64_t events_alone = 0;    ///< events that one core computed alone: after void windows, and what does not fit

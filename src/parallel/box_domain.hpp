@@ -26,6 +26,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -172,6 +173,8 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> take_events_done() {
     return {std::exchange(events_, 0), std::exchange(copied_events_, 0)};
   }
+  /// The largest component of a velocity that an event has given since the last call, in the frame in which lines are straight.
+  [[nodiscard]] double take_fastest() { return std::exchange(fastest_, 0.0); }
   [[nodiscard]] std::size_t bytes() const;
 
  private:
@@ -205,6 +208,7 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
     std::uint64_t& history = mark(i).history;
     history = (history ^ std::bit_cast<std::uint64_t>(time)) * 0x9E3779B97F4A7C15U;
     history ^= history >> 29;
+    fastest_ = std::max({fastest_, std::abs(line(i).v[0]), std::abs(line(i).v[1])});
   }
 
   [[nodiscard]] double time_of_redraw() const { return due_[redrawn_].time.since<double>(epoch_); }
@@ -263,6 +267,7 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   std::span<const Redraw> due_;  ///< the redraws of this window
   std::size_t redrawn_ = 0;      ///< of these
   ExactSum redraw_energy_;       ///< gained by disks at home
+  double fastest_ = 0.0;         ///< see take_fastest()
 };
 
 }  // namespace carom

@@ -384,10 +384,16 @@ const typename BoxDomain<Impact, Layout, World>::Verdict& BoxDomain<Impact, Layo
   if (crowded_) return verdict_;  // what has not been read may be near: disks at home keep the plans that name it
   std::size_t kept = 0;
   for (const std::int32_t i : halo_) {
-    if (mark(i).read == reading_)
+    if (mark(i).read == reading_) {
       halo_[kept++] = i;
-    else
-      leave(i);
+      continue;
+    }
+    // Its home has it too far away to tell of it. Where it is not so here, something has gone wrong.
+    if (const double outside = parts_.outside(lists_.centre(i), me_); outside <= reach_) {
+      ++verdict_.compared, ++verdict_.wrong;
+      verdict_.nearest = std::min(verdict_.nearest, outside);
+    }
+    leave(i);
   }
   halo_.resize(kept);
   limit_events();

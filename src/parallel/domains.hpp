@@ -82,7 +82,7 @@ class Domains {
   [[nodiscard]] Instant now() const;
   void set_back(const Instant& time);
   /// Tells that the whole engine, which has the disks, has begun an epoch on another clock.
-  void begin_anew() { alone_until_.reset(); }
+  void begin_anew() { alone_until_.reset(), epoch_of_void_one_ = {-infinity<double>, 0.0}; }
   [[nodiscard]] const ThreadCounts& thread_counts() const { return done_; }
   [[nodiscard]] std::size_t bytes() const;
 
@@ -120,6 +120,7 @@ class Domains {
     std::uint64_t events = 0, copied_events = 0;  ///< in the last window
     std::uint64_t longest_list = 0;               ///< when neighbourhoods were last made anew
     double read_at_home = 0.0;
+    double fastest = 0.0;  ///< component of a velocity that an event of the last window has given
     double epoch_seconds = 0.0;
     bool stopped = false;
   };

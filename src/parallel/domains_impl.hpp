@@ -60,7 +60,7 @@ bool Domains<Impact, Layout, World>::run_until(const Instant& target, std::uint6
       continue;
     }
     if (!shared_) share_out();
-    target_ = target.since<double>(whole_.epoch_);
+    target_ = std::max(now_, target.since<double>(whole_.epoch_));
     end_ = target;
     pair_limit_ = pair_limit;
     event_limit_ = event_limit;
@@ -493,6 +493,7 @@ void Domains<Impact, Layout, World>::decide() {
     stopped = stopped || facts.stopped || facts.verdict.conflict;
     nearest = std::min(nearest, facts.verdict.nearest);
     allowed = std::max(allowed, facts.read_at_home);
+    fastest_ = std::max(fastest_, 1.4143 * facts.fastest);  // of the two components: more than the square root of 2
     done_.events += facts.events;
     done_.copied_events += facts.copied_events;
     done_.copies += facts.verdict.compared;
@@ -737,7 +738,7 @@ void Domains<Impact, Layout, World>::end_of_epoch() {
   all_stored_here_ = ranks_ == nullptr;
   collisions_told_ = events_told_ = 0;
   now_ = 0.0;
-  target_ = end_.template since<double>(whole_.epoch_);
+  target_ = std::max(now_, end_.template since<double>(whole_.epoch_));
   if (has_failed())
     next_ = Next::failed;
   else if (whole_.stall_.jammed() || whole_.idle() || !owed_.isZero(0.0))  // which one engine alone is to give the disks

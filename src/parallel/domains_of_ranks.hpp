@@ -106,7 +106,10 @@ void Domains<Impact, Layout, World>::gather_facts(bool window_over) {
     facts.counts = domain.counts();
     facts.verdict = verdicts_[d];
     facts.homes = domain.homes();
-    if (window_over) std::tie(facts.events, facts.copied_events) = domain.take_events_done();
+    if (window_over) {
+      std::tie(facts.events, facts.copied_events) = domain.take_events_done();
+      facts.fastest = domain.take_fastest();
+    }
     facts.longest_list = longest_lists_[d];
     facts.read_at_home = domain.read_at_home();
     facts.epoch_seconds = epoch_seconds_[d];
