@@ -109,6 +109,7 @@ void Simulation::Parts::go_on(Scene with, State state, CollisionFunction with_ru
   scene = std::move(with);
   disks = std::move(start.disks);
   smallest_radius = smallest_of(disks);
+  standstill.reset();
   rule = std::move(with_rule);
   engine_name = entry.name;
   engine_reason = std::move(reason);

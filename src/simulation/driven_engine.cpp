@@ -91,8 +91,9 @@ bool DrivenEngine::run(const Instant& target, std::uint64_t pair_limit, std::uin
       filled_ = true;
       arrived = false;
     } else if (!(stop < redraws_.time()) && redraws_.time() < forever) {
+      const std::uint64_t redrawn = redraws_.done().redraws;
       redraw_velocities();
-      event_limit -= std::min<std::uint64_t>(event_limit, 1);
+      event_limit -= std::min(event_limit, redraws_.done().redraws - redrawn);
       arrived = false;
     } else {
       break;

@@ -6,6 +6,7 @@
 
 #include "simulation/any_engine.hpp"
 #include "simulation/proceed_watch.hpp"
+#include "simulation/standstill.hpp"
 
 #include <algorithm>
 #include <array>
@@ -46,6 +47,7 @@ struct Simulation::Parts {
   std::optional<double> time_step = {};  ///< of a fixed-step method
   std::optional<double> stiffness = {};  ///< that was given to it
   double smallest_radius = smallest_of(disks);
+  std::optional<detail::Standstill> standstill = {};  ///< of run_until(); made where it is missing
 
   Threads threads = {};
   ThreadCounts threads_before = {};         ///< what engines before this one took since set_threads()

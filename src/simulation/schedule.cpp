@@ -64,8 +64,8 @@ class Schedule {
         sample_collisions_(run_.sample_every_collisions.value_or(no_limit)),
         block_collisions_(std::max<std::uint64_t>(16, disks.count() / 2)),
         disks_(disks),
-        standstill_(disks.count(), smallest_radius, effects_),
-        moving_as_one_(std::in_place, scene, disks) {}
+        standstill_(*engine, disks.count(), smallest_radius, effects_),
+        moving_as_one_(std::in_place, *engine, scene, disks) {}
   Schedule(const Schedule&) = delete;
   Schedule& operator=(const Schedule&) = delete;
   ~Schedule() { engine().listen({}); }
@@ -95,7 +95,7 @@ class Schedule {
   template <class Archive>
   void serialize(Archive& archive) {
     archive(measuring_, equilibrating_, next_block_, without_collision_, since_verified_, tolerated_overlap_, standstill_,
-            stands_, recording_);
+            *moving_as_one_, stands_, recording_);
     archive(standing_, result_.samples, result_.loop_seconds, result_.verified, counted_);
     std::vector<std::uint64_t> next;
     for (const Grid& grid : grids_) next.push_back(grid.k);
@@ -123,6 +123,8 @@ class Schedule {
     end_ = {until, collisions};
     if (!advance(until, collisions) && result_.stopped != StopReason::collisions) return false;
     engine().reset_clock();
+    standstill_.begin(engine());
+    moving_as_one_.emplace(engine(), scene_, disks_);
     equilibrating_ = false;
     const std::uint64_t verified = result_.verified;
     result_ = {};
@@ -326,7 +328,7 @@ class Schedule {
     }
     engine().record_events(recording_);
     listen();
-    moving_as_one_.emplace(scene_, disks_);
+    moving_as_one_.emplace(engine(), scene_, disks_);
     without_collision_ = 0;
     if (hooks_.change) hooks_.change(true);
     return true;
@@ -340,7 +342,9 @@ class Schedule {
         if (!hooks_.proceed(progress())) return stop(StopReason::interrupted);
       }
       if (hooks_.checkpoint) hooks_.checkpoint(saving_moment(false));
-      const bool arrived = run_stretch(target, std::min(collisions, next_block_));
+      const std::uint64_t look =
+          std::min(standstill_.collisions_at_look(), moving_as_one_->collisions_at_look(engine().counts()));
+      const bool arrived = run_stretch(target, std::min({collisions, next_block_, look}), stretch_limit());
       if (stands_ && !recording_) record_events(true);  // to be able to name the disks that collide without end
       const bool is_met = recording_ && take_events();
       hand_over_records();
@@ -360,16 +364,21 @@ class Schedule {
     }
   }
 
+  /// How many events may happen before the next look at the run.
+  [[nodiscard]] std::uint64_t stretch_limit() const {
+    return std::min({hooks_.stop_when && measuring_ ? 1
+                     : recording_                   ? recorded_events
+                                                    : stretch_events,
+                     until_verified(), standstill_.events_until_look(engine().counts()),
+                     moving_as_one_->events_until_look(engine().counts())});
+  }
+
   /// True when the engine stands at the target.
-  bool run_stretch(const Instant& target, std::uint64_t pair_limit) {
+  bool run_stretch(const Instant& target, std::uint64_t pair_limit, std::uint64_t limit) {
     const std::uint64_t pairs = engine().counts().pair;
     const std::uint64_t before = detail::all_events(engine().counts()), epochs = engine().counts().numerics.epochs;
     const Instant began = engine().now();
     const auto started = Clock::now();
-    const std::uint64_t limit = std::min({hooks_.stop_when && measuring_ ? 1
-                                          : recording_                   ? recorded_events
-                                                                         : stretch_events,
-                                          until_verified(), moving_as_one_->until_look(engine().counts())});
     const bool step_by_step = hooks_.stop_when && measuring_;
     const bool arrived =
         step_by_step ? engine().run_until(target, pair_limit, limit) : engine().run_about(target, pair_limit, limit);
@@ -446,10 +455,11 @@ class Schedule {
     return false;
   }
 
-  /// Stops a run whose clock all but stands still, after finding out which disks collide without end.
+  /// Stops a run whose clock all but stands still, after finding out which disks collide without end: as many further collisions
+  /// of pairs whoever looks on.
   bool stop_at_standstill(StopReason reason, const Instant& target, std::uint64_t collisions) {
     record_events(true);
-    run_stretch(target, collisions);
+    run_stretch(target, std::min(collisions, engine().counts().pair + 1'000), 16'000);
     stands_ = true;
     take_events();
     return stop(reason);

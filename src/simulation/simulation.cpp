@@ -9,7 +9,6 @@
 #include "simulation/parts.hpp"
 #include "simulation/proceed_watch.hpp"
 #include "simulation/sampling_times.hpp"
-#include "simulation/standstill.hpp"
 #include "simulation/start.hpp"
 #include "simulation/velocities_determine_contacts.hpp"
 
@@ -36,7 +35,7 @@ StopReason Simulation::Parts::run_between_changes(const Instant& target, const R
   if (time_step && (limits.events != RunLimits::none || limits.stop_when))
     throw std::invalid_argument("a fixed-step method ends at a time or a number of collisions of pairs only");
   require_rule();
-  detail::Standstill standstill(disks.count(), smallest_radius, scene.effects);
+  if (!standstill) standstill.emplace(*engine, disks.count(), smallest_radius, scene.effects);
   for (;;) {
     const std::uint64_t happened = engine->counts().events();
     if (happened >= limits.events) return StopReason::events;
@@ -45,14 +44,16 @@ StopReason Simulation::Parts::run_between_changes(const Instant& target, const R
       const std::optional<Event> event = next_event(target, limits.collisions, arrived);
       if (event && limits.stop_when(*event)) return StopReason::condition;
     } else {
+      const std::uint64_t collisions = std::min(limits.collisions, standstill->collisions_at_look());
+      const std::uint64_t events = std::min(watch.events(), standstill->events_until_look(engine->counts()));
       arrived = limits.events == RunLimits::none
-                    ? engine->run_about(target, limits.collisions, watch.events())
-                    : engine->run_until(target, limits.collisions, std::min(watch.events(), limits.events - happened));
+                    ? engine->run_about(target, collisions, events)
+                    : engine->run_until(target, collisions, std::min(events, limits.events - happened));
     }
     if (arrived) return StopReason::time;
     if (const auto reason = detail::why_stopped(*engine, scene.effects)) return *reason;
     if (engine->counts().pair >= limits.collisions) return StopReason::collisions;
-    if (const auto reason = standstill.reached(*engine, {target, limits.collisions})) return *reason;
+    if (const auto reason = standstill->reached(*engine, {target, limits.collisions})) return *reason;
     if (watch.stopped()) return StopReason::interrupted;
   }
 }
@@ -198,6 +199,7 @@ ThreadCounts Simulation::thread_counts() const {
 
 void Simulation::reset_clock() {
   parts_->engine->reset_clock();
+  parts_->standstill.reset();
   parts_->clock_began = true;
 }
 void Simulation::record_events(bool on) { parts_->engine->record_events(parts_->recording = on); }

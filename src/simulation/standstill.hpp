@@ -2,6 +2,10 @@
 // Tells a run that goes nowhere. Disks that jam need not collide at one instant: where two times differ by their last digit only,
 // every event may move the clock by that digit, and a run would take years for the next thousandth of a unit of time. Or events
 // may follow each other ever faster, so that the clock converges to a time before the end of the run.
+//
+// Such a run has to end at the same event on any number of cores, whoever looks on. So it is looked at where numbers of
+// collisions of pairs are reached, which every engine stops at exactly; and, eight times as rarely, at numbers of all that
+// happens, for disks that meet walls alone. There several cores may stop some events later.
 
 #include "core/all_events.hpp"
 #include "core/instant.hpp"
@@ -17,6 +21,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace carom::detail {
 
@@ -28,34 +33,79 @@ struct RunEnd {
 
 class Standstill {
  public:
-  /// `smallest`: the smallest radius of the `disks`, which to find takes longer than an event.
-  Standstill(std::size_t disks, double smallest, const Effects& effects)
-      : disks_(disks), smallest_(smallest), effects_(effects), mark_at_(first_mark()) {}
+  /// The run begins, or goes on, where `engine` is. `smallest`: the smallest radius of the `disks`, which to find takes longer
+  /// than an event.
+  Standstill(const AnyEngine& engine, std::size_t disks, double smallest, const Effects& effects)
+      : disks_(disks),
+        smallest_(smallest),
+        effects_(effects),
+        by_collisions_(500'000 + 50 * disks, 8'192 + 32 * disks),
+        by_all_(8 * (1'000'000 + 100 * disks), 8 * (16'384 + 64 * disks)) {
+    begin(engine);
+  }
 
-  /// Asked now and then: why the run will not come to its end, or nothing.
+  /// The run begins anew, after the clock was reset.
+  void begin(const AnyEngine& engine) {
+    const Counts& counts = engine.counts();
+    by_collisions_.begin({engine.now(), counts.pair, counts.pair});
+    by_all_.begin({engine.now(), happenings(counts), counts.pair});
+  }
+
+  /// The number of collisions of pairs at which reached() looks next.
+  [[nodiscard]] std::uint64_t collisions_at_look() const { return by_collisions_.next(); }
+  /// How many events may happen before reached() is to be called again.
+  [[nodiscard]] std::uint64_t events_until_look(const Counts& counts) const {
+    const std::uint64_t happened = happenings(counts), next = by_all_.next();
+    return next > happened ? (next - happened + 1) / 2 : 1;  // each of them may begin an epoch, which is counted too
+  }
+
+  /// Why the run will not come to its end, or nothing, which it is wherever nothing is due.
   [[nodiscard]] std::optional<StopReason> reached(const AnyEngine& engine, const RunEnd& end) {
-    const std::uint64_t events = happenings(engine.counts());
-    if (events < block_.events) start_anew(engine, events);  // the clock was reset
-    if (creeps(engine, events)) return reason_;
-    if (converges(engine, events, end)) return reason_;
-    return std::nullopt;
+    const auto reason = look(by_collisions_, engine, engine.counts().pair, end);
+    return reason ? reason : look(by_all_, engine, happenings(engine.counts()), end);
   }
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(block_, mark_, mark_at_, pace_, quickened_);
+    archive(by_collisions_, by_all_);
   }
 
  private:
   /// How far a run had come.
   struct Point {
     Instant time{};
-    std::uint64_t events = 0;
+    std::uint64_t number = 0;  ///< of collisions of pairs, or of all that happens
     std::uint64_t pairs = 0;
   };
 
-  /// Events after which the pace is looked at for the first time; then after twice as many each time.
-  [[nodiscard]] std::uint64_t first_mark() const { return 16'384 + 64 * disks_; }
+  /// A run as one of the two numbers grows.
+  struct Course {
+    Course(std::uint64_t length, std::uint64_t first) : block_length(length), first_mark(first) {}
+
+    /// The number at which something is due, the same wherever the run began.
+    [[nodiscard]] std::uint64_t next() const { return std::min(block_end, mark_at); }
+    void begin(const Point& now) {
+      block = mark = now;
+      block_end = (now.number / block_length + 1) * block_length;
+      for (mark_at = first_mark; mark_at <= now.number;) mark_at *= 2;
+      pace = 0.0;
+      quickened = 0;
+    }
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(block, block_end, mark, mark_at, pace, quickened);
+    }
+
+    std::uint64_t block_length;   ///< in which it is measured how far the fastest disk goes
+    std::uint64_t first_mark;     ///< where the pace is measured for the first time; then at twice the number each time
+    Point block;                  ///< where the block began
+    std::uint64_t block_end = 0;  ///< number
+    Point mark;                   ///< where the pace was last measured
+    std::uint64_t mark_at = 0;    ///< number at which it will be
+    double pace = 0.0;            ///< time for each one of the number, before the mark
+    std::uint64_t quickened = 0;  ///< how many times more often it had fallen than not
+  };
+
   /// By how much of the smallest radius even the fastest disk must get on from one of its events to the next: what coordinates
   /// can tell. Disks that grow have jammed when they have less room than contact is known to, some hundred times as much.
   [[nodiscard]] double least_way() const { return grows() ? 0x1p-40 : 0x1p-50; }
@@ -72,43 +122,42 @@ class Standstill {
     return std::ranges::any_of(effects_.walls, [](const WallProperties& wall) { return wall.velocity.value_or(0.0) != 0.0; });
   }
 
-  [[nodiscard]] static Point point(const AnyEngine& engine, std::uint64_t events) {
-    return {engine.now(), events, engine.counts().pair};
-  }
-  void start_anew(const AnyEngine& engine, std::uint64_t events) {
-    block_ = mark_ = point(engine, events);
-    mark_at_ = events + first_mark();
-    pace_ = 0.0;
-    quickened_ = 0;
+  [[nodiscard]] std::optional<StopReason> look(Course& course, const AnyEngine& engine, std::uint64_t number, const RunEnd& end) {
+    const Point now{engine.now(), number, engine.counts().pair};
+    if (number >= course.block_end && creeps(course, engine, now))
+      return effects_.dissipate() ? StopReason::collapsed : StopReason::jammed;
+    if (number >= course.mark_at && converges(course, engine, now, end))
+      return effects_.dissipate()            ? StopReason::collapsed
+             : grows() || has_moving_walls() ? StopReason::jammed
+                                             : StopReason::overheated;
+    return std::nullopt;
   }
 
-  /// Whether over the last million events, and a hundred per disk, even the fastest disk went less from one of its events to the
-  /// next than coordinates can tell.
-  [[nodiscard]] bool creeps(const AnyEngine& engine, std::uint64_t events) {
-    const std::uint64_t done = events - block_.events;
-    if (done < 1'000'000 + 100 * disks_) return false;
+  /// Whether over a whole block even the fastest disk went less from one of its events to the next than coordinates can tell.
+  [[nodiscard]] bool creeps(Course& course, const AnyEngine& engine, const Point& now) const {
+    const std::uint64_t done = now.number - course.block.number;
+    const Instant began = std::exchange(course.block, now).time;
+    course.block_end = (now.number / course.block_length + 1) * course.block_length;
+    if (done < course.block_length) return false;
     const State state = engine.state();
     const double fastest = state.velocities.size() > 0 ? state.velocities.cwiseAbs().maxCoeff() : 0.0;
-    const double way = fastest * engine.now().since<double>(block_.time);  // of the fastest, in `done` events of all
+    const double way = fastest * now.time.since<double>(began);  // of the fastest, in `done` events of all
     const double of_one = static_cast<double>(done) / static_cast<double>(std::max<std::size_t>(disks_, 1));
-    block_ = point(engine, events);
-    reason_ = effects_.dissipate() ? StopReason::collapsed : StopReason::jammed;
     return way < of_one * least_way() * smallest_ * state.scale;
   }
 
   /// Whether events follow each other ever faster, so that the run would need more than `most_events` to come to its end, if it
   /// ever does.
-  [[nodiscard]] bool converges(const AnyEngine& engine, std::uint64_t events, const RunEnd& end) {
-    if (events < mark_at_) return false;
-    const Point now = point(engine, events);
-    const auto done = static_cast<double>(events - mark_.events);
-    const double pace = now.time.since<double>(mark_.time) / done;
-    const double pairs = static_cast<double>(now.pairs - mark_.pairs) / done;
-    quickened_ = pace < quickened_pace * pace_ ? quickened_ + 1 : quickened_ - std::min<std::uint64_t>(quickened_, 1);
-    pace_ = pace;
-    mark_ = now;
-    mark_at_ = 2 * events;
-    if (quickened_ < quickened_marks) return false;
+  [[nodiscard]] bool converges(Course& course, const AnyEngine& engine, const Point& now, const RunEnd& end) const {
+    const Point before = std::exchange(course.mark, now);
+    const auto done = static_cast<double>(now.number - before.number);
+    const double pace = now.time.since<double>(before.time) / done;
+    const double pairs = static_cast<double>(now.pairs - before.pairs) / done;
+    course.quickened = pace < quickened_pace * course.pace ? course.quickened + 1
+                                                           : course.quickened - std::min<std::uint64_t>(course.quickened, 1);
+    course.pace = pace;
+    while (course.mark_at <= now.number) course.mark_at *= 2;
+    if (course.quickened < quickened_marks) return false;
     if (effects_.growth && effects_.growth->reduced_pressure && pairs > 0.0) return false;  // which rises as the pace falls
     const Instant until = std::min(end.time, engine.grown_at());
     constexpr double never = std::numeric_limits<double>::infinity();
@@ -116,21 +165,13 @@ class Standstill {
     const bool is_counted = end.collisions < RunEnd{}.collisions;
     const double by_collisions =
         is_counted ? (static_cast<double>(end.collisions) - static_cast<double>(now.pairs)) / pairs : never;
-    reason_ = effects_.dissipate()            ? StopReason::collapsed
-              : grows() || has_moving_walls() ? StopReason::jammed
-                                              : StopReason::overheated;
     return std::min(by_time, by_collisions) > most_events;
   }
 
   std::size_t disks_;
   double smallest_;
   const Effects& effects_;
-  Point block_;                  ///< where creeps() began to measure
-  Point mark_;                   ///< where the pace was last looked at
-  std::uint64_t mark_at_;        ///< events at which it will be
-  double pace_ = 0.0;            ///< time per event up to mark_
-  std::uint64_t quickened_ = 0;  ///< how many times more often it had fallen than not
-  StopReason reason_ = StopReason::jammed;
+  Course by_collisions_, by_all_;
 };
 
 }  // namespace carom::detail

@@ -1,5 +1,6 @@
 // Inelastic collapse at one instant: speeds that fall to nothing, and gases that cool until nothing is left to compute with.
 
+#include "core/all_events.hpp"
 #include "observe/mechanics.hpp"
 #include "support/effect_scenes.hpp"
 
@@ -209,6 +210,33 @@ TEST(Cooling, OfAGasThatMovesAsAWholeEndsWhereItWaitsForCollisions) {
     EXPECT_LT(mean_speed(end), 0x1p-14);
     EXPECT_GT(mean_speed(end), 0x1p-24) << "it is told in time";
   }
+}
+
+/// Disks that stick together wait for a collision that never comes.
+TEST(Cooling, OfDisksThatNeverMeetAgainEndsAtOnce) {
+  for (const char* engine : engines_with_effects) {
+    SCOPED_TRACE(engine);
+    Scene scene = scene_of_placed(box_of(8.0, 8.0, Boundary::periodic), {{{2.0, 4.0}, {1.0, 0.25}}, {{6.0, 4.0}, {0.0, 0.25}}});
+    scene.effects.collision.restitution = 0.0;
+    scene.run.time.reset();
+    scene.run.collisions = 1000;
+    Simulation simulation = make_simulation(scene, engine);
+    EXPECT_EQ(run_schedule(simulation).stopped, StopReason::cooled);
+    EXPECT_LE(detail::all_events(simulation.counts()), 2'000'000U);
+  }
+}
+
+TEST(Cooling, EndsAtTheSameEventOnSeveralCores) {
+  const Scene scene = cooling_gas(50, 0.5);
+  State start = draw_start(scene).state;
+  start.velocities.colwise() += V(0x1p14, -0x1p13);
+  Simulation alone = make_simulation(scene, start), shared = make_simulation(scene, start);
+  shared.set_threads({.domains = 2});
+  EXPECT_EQ(run_schedule(alone).stopped, StopReason::cooled);
+  EXPECT_EQ(run_schedule(shared).stopped, StopReason::cooled);
+  EXPECT_EQ(shared.counts().pair, alone.counts().pair);
+  EXPECT_EQ(state_hash(shared.state()), state_hash(alone.state()));
+  EXPECT_GT(shared.thread_counts().windows, 10U);
 }
 
 TEST(Cooling, LeavesARunItsTimeHoweverDisksMoveTogether) {

@@ -8,6 +8,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <span>
+#include <utility>
+
 namespace carom::test {
 namespace {
 
@@ -131,6 +134,57 @@ TEST(EnginesStandstill, AGasThatShearHeatsSteadilyGoesOn) {
   scene.run.collisions = 500'000;  // five times twice as many as the first look at the pace
   Simulation simulation = make_simulation(scene);
   EXPECT_EQ(run_schedule(simulation).stopped, StopReason::collisions);
+}
+
+/// Disks on a lattice that grow into a jam.
+Scene growing_lattice() {
+  Scene scene = gas_scene(36, 0.3, Boundary::periodic);
+  scene.species.front().positions = SquareLattice{};
+  scene.effects.collision.rule = CollisionRule::reversal;
+  scene.effects.growth = Growth{.rate = 0.3};
+  scene.run.time = 5.0;
+  return scene;
+}
+
+TEST(EnginesStandstill, EndsTheRunAtTheSameEventWhoeverLooksOn) {
+  const Scene scene = growing_lattice();
+  Simulation alone = make_simulation(scene);
+  EXPECT_EQ(alone.run_until(5.0), StopReason::jammed);
+  const auto expect_same_end = [&](const char* how, const Threads& threads, double stop, const RunLimits& limits) {
+    Simulation other = make_simulation(scene);
+    other.set_threads(threads);
+    EXPECT_EQ(other.run_until(stop), StopReason::time) << how;
+    EXPECT_EQ(other.run_until(5.0, limits), StopReason::jammed) << how;
+    EXPECT_EQ(other.counts().pair, alone.counts().pair) << how;
+    EXPECT_EQ(state_hash(other.state()), state_hash(alone.state())) << how;
+  };
+  RunLimits may_be_stopped;
+  may_be_stopped.proceed = [] { return true; };
+  expect_same_end("a program that may stop it", {}, 0.0, may_be_stopped);
+  expect_same_end("a stop on the way", {}, 1.0, {});
+  expect_same_end("two domains", {.domains = 2}, 0.0, {});
+  expect_same_end("three domains", {.domains = 3}, 0.5, may_be_stopped);
+}
+
+/// A schedule goes on for a thousand collisions, to name the disks.
+TEST(EnginesStandstill, EndsAScheduleAtTheSameEventWhoeverLooksOn) {
+  const Scene scene = growing_lattice();
+  const auto end = [&](const Threads& threads, const RunHooks& hooks) {
+    Simulation simulation = make_simulation(scene);
+    simulation.set_threads(threads);
+    EXPECT_EQ(run_schedule(simulation, hooks).stopped, StopReason::jammed);
+    return std::pair(simulation.counts().pair, state_hash(simulation.state()));
+  };
+  RunHooks logs, verifies, samples;
+  logs.events = [](std::span<const Event>) {};
+  verifies.verify_every = 777;
+  samples.grids.emplace_back().step = 0.01;
+  const auto alone = end({}, {});
+  EXPECT_EQ(end({}, logs), alone);
+  EXPECT_EQ(end({}, verifies), alone);
+  EXPECT_EQ(end({}, samples), alone);
+  EXPECT_EQ(end({.domains = 2}, {}), alone);
+  EXPECT_EQ(end({.domains = 3}, logs), alone);
 }
 
 TEST(EnginesStandstill, DisksThatJamAtOneInstantAreNamedAndNoOthers) {
