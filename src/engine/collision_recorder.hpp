@@ -101,6 +101,8 @@ class CollisionRecorder {
     logging_ = on;
     active_ = logging_ || listener_;
   }
+  /// How many events have been logged since take_events(), but for those that are recorded only.
+  [[nodiscard]] std::size_t logged() const { return log_.size(); }
   /// Puts the events logged since the last call in the place of what `events` held.
   void take_events(std::vector<Event>& events) {
     hand_over();

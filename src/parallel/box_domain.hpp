@@ -21,6 +21,7 @@
 #include "engine/event_loop.hpp"
 #include "parallel/box_parts.hpp"
 #include "parallel/disk_message.hpp"
+#include "parallel/record_merge.hpp"
 #include "parallel/slots_of_disks.hpp"
 
 #include <algorithm>
@@ -117,7 +118,9 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
     if (logged_.empty() && recorder_.logging()) recorder_.take_events(logged_);
     return logged_;
   }
-  void clear_records() { collisions_.clear(), logged_.clear(); }
+  /// Returns the redraws made since then while something was to be recorded.
+  [[nodiscard]] const std::vector<RecordsBeforeRedraw>& redraws() const { return recorded_redraws_; }
+  void clear_records() { collisions_.clear(), logged_.clear(), recorded_redraws_.clear(); }
 
   // An epoch: see EventLoop::begin_epoch().
 
@@ -258,8 +261,9 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   std::size_t homes_ = 0;
   bool crowded_ = false;  ///< there is no slot left
   Verdict verdict_;
-  std::vector<CollisionRecord> collisions_;       ///< recorded in this window
-  std::vector<Event> logged_;                     ///< in this window
+  std::vector<CollisionRecord> collisions_;  ///< recorded in this window
+  std::vector<Event> logged_;                ///< in this window
+  std::vector<RecordsBeforeRedraw> recorded_redraws_;
   RunningTotals ghosts_;                          ///< counts of the events of copies
   std::uint64_t events_ = 0, copied_events_ = 0;  ///< in this window
   std::uint64_t most_events_ = 0;                 ///< of a window

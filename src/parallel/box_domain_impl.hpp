@@ -152,6 +152,10 @@ void BoxDomain<Impact, Layout, World>::redraw_next() {
     const std::int32_t i = slot_of_redraw();
     if (i < 0 || empty(i)) continue;
     now_ = std::max(now_, time);
+    if (recorder_.active() && (recorded_redraws_.empty() || recorded_redraws_.back().number != due_[redrawn_].number + 1)) {
+      recorder_.hand_over();
+      recorded_redraws_.push_back({time, due_[redrawn_].number + 1, recorder_.logged(), collisions_.size()});
+    }
     const bool at_home = mark(i).role == Role::home;
     count_event(at_home);
     const double gained = this->redraw(i, *redraws_, due_[redrawn_]);

@@ -23,6 +23,7 @@
 #include "parallel/box_domain_impl.hpp"
 #include "parallel/box_parts.hpp"
 #include "parallel/packet.hpp"
+#include "parallel/record_merge.hpp"
 #include "parallel/team.hpp"
 
 #include <carom/ranks.hpp>
@@ -323,6 +324,7 @@ class Domains {
   bool recording_ = false;                         ///< collisions or events
   std::vector<std::vector<CollisionRecord>> collisions_elsewhere_;  ///< by domain of another rank, in this window
   std::vector<std::vector<Event>> events_elsewhere_;
+  std::vector<std::vector<RecordsBeforeRedraw>> redraws_elsewhere_;
   std::vector<std::int32_t> slot_of_id_;          ///< of the whole engine
   std::vector<NeighbourhoodCentre> centres_;      ///< by slot of the whole engine
   std::vector<typename Part::Verdict> verdicts_;  ///< by domain

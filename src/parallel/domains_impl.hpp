@@ -3,6 +3,7 @@
 
 #include "core/all_events.hpp"
 #include "parallel/domains_of_ranks.hpp"
+#include "parallel/record_merge.hpp"
 
 namespace carom {
 
@@ -192,6 +193,7 @@ void Domains<Impact, Layout, World>::make_domains() {
   stored_.assign(count(), {});
   collisions_elsewhere_.assign(count(), {});
   events_elsewhere_.assign(count(), {});
+  redraws_elsewhere_.assign(count(), {});
   redraw_energies_.assign(count(), {});
   seconds_.assign(count(), 0.0);
   epoch_seconds_.assign(count(), 0.0);
@@ -545,75 +547,48 @@ void Domains<Impact, Layout, World>::begin_epoch_next() {
   alone_until_ = whole_.epoch_.plus(now_);
 }
 
-namespace detail {
-
-/// Whether two domains have recorded the same collision.
-inline bool is_same(const CollisionRecord& a, const CollisionRecord& b) {
-  const auto equal = [](const auto& one, const auto& other) {
-    return std::equal(std::begin(one), std::end(one), std::begin(other));
-  };
-  return a.time == b.time && a.slot_i == b.slot_i && a.slot_j == b.slot_j && equal(a.before_i, b.before_i) &&
-         equal(a.before_j, b.before_j) && equal(a.after_i, b.after_i) && equal(a.after_j, b.after_j);
-}
-inline bool is_same(const Event& a, const Event& b) {
-  return a.time == b.time && a.time_remainder == b.time_remainder && a.disk == b.disk && a.partner == b.partner &&
-         a.velocity == b.velocity && a.partner_velocity == b.partner_velocity;
-}
-
-}  // namespace detail
-
-/// Gives the records of all domains to the recorder of the whole engine, in order of time.
+/// Gives the records of all domains to the recorder of the whole engine, in the order of one core.
 template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::hand_over_records() {
   CollisionRecorder& recorder = whole_.recorder_;
   if (!recorder.active()) return;
-  const auto ids = [&](const CollisionRecord& record) { return std::minmax(whole_.id(record.slot_i), whole_.id(record.slot_j)); };
-  const auto collided_before = [&](const CollisionRecord& a, const CollisionRecord& b) {
-    return a.time < b.time || (a.time == b.time && ids(a) < ids(b));
-  };
-  const auto logged_before = [](const Event& a, const Event& b) {
-    return std::tie(a.time, a.time_remainder, a.disk, a.partner) < std::tie(b.time, b.time_remainder, b.disk, b.partner);
-  };
-  const auto events_of = [this](std::size_t d) -> const std::vector<Event>& {
-    return is_here(d) ? domains_[d]->logged() : events_elsewhere_[d];
-  };
-  const auto collisions_of = [this](std::size_t d) -> const std::vector<CollisionRecord>& {
-    return is_here(d) ? domains_[d]->collisions() : collisions_elsewhere_[d];
-  };
-  /// Calls take(one) once for the entries of all lists, each of which is in order by itself. An entry of two lists has its turn
-  /// when it is the next of both: at one instant that keeps causes before effects.
-  const auto merge = [this](auto&& list_of, auto&& before, auto&& take) {
-    std::vector<std::size_t> next(domains_.size());
-    const auto waits = [&](const auto& entry) {
-      for (std::size_t d = 0; d < domains_.size(); ++d)
-        for (std::size_t k = next[d] + 1; k < list_of(d).size() && list_of(d)[k].time == entry.time; ++k)
-          if (detail::is_same(list_of(d)[k], entry) && !detail::is_same(list_of(d)[next[d]], entry)) return true;
-      return false;
-    };
-    const auto first_of = [&](auto&& may_come) {
-      std::size_t first = domains_.size();
-      for (std::size_t d = 0; d < domains_.size(); ++d)
-        if (next[d] < list_of(d).size() &&
-            (first == domains_.size() || before(list_of(d)[next[d]], list_of(first)[next[first]])) &&
-            may_come(list_of(d)[next[d]]))
-          first = d;
-      return first;
-    };
-    for (;;) {
-      std::size_t first = first_of([](const auto& /*entry*/) { return true; });
-      if (first < domains_.size() && waits(list_of(first)[next[first]]))
-        first = first_of([&](const auto& entry) { return !waits(entry); });
-      if (first == domains_.size()) return;
-      const auto entry = list_of(first)[next[first]];
-      take(entry);
-      for (std::size_t d = 0; d < domains_.size(); ++d)
-        if (next[d] < list_of(d).size() && detail::is_same(list_of(d)[next[d]], entry)) ++next[d];
+  /// The records of all domains: `here` gives those of one on this rank, and `made_before` how many there were before a redraw.
+  const auto lists_of = [this](auto&& here, const auto& elsewhere, auto made_before, auto&& is_at) {
+    std::vector<DomainRecords<typename std::remove_cvref_t<decltype(elsewhere[0])>::value_type>> lists(domains_.size());
+    for (std::size_t d = 0; d < domains_.size(); ++d) {
+      lists[d].records = is_here(d) ? &here(*domains_[d]) : &elsewhere[d];
+      for (const RecordsBeforeRedraw& redraw : is_here(d) ? domains_[d]->redraws() : redraws_elsewhere_[d])
+        lists[d].note(redraw.number, redraw.*made_before, [&](const auto& record) { return is_at(record, redraw.time); });
     }
+    return lists;
   };
-  if (recorder.logging())
-    merge(events_of, logged_before, [&](const Event& event) { recorder.append({&event, 1}), ++events_told_; });
-  if (recorder.listening())
-    merge(collisions_of, collided_before, [&](const CollisionRecord& record) { recorder.hand_on(record), ++collisions_told_; });
+  if (recorder.logging()) {
+    const auto time = [](const Event& event) { return Instant{event.time, event.time_remainder}; };
+    const auto lists = lists_of([](Part& domain) -> const std::vector<Event>& { return domain.logged(); }, events_elsewhere_,
+                                &RecordsBeforeRedraw::events,
+                                [&](const Event& event, double redraw) {
+                                  const Instant at = whole_.epoch_.plus(redraw);
+                                  return event.time == at.high && event.time_remainder == at.low;
+                                });
+    merge_records<Event>(
+        lists, [&](const Event& a, const Event& b) { return time(a) < time(b); },
+        [](const Event& a, const Event& b) { return std::tie(a.disk, a.partner) < std::tie(b.disk, b.partner); },
+        [&](const Event& event) {
+          recorder.append({&event, 1}), ++events_told_;
+        });
+  }
+  if (recorder.listening()) {
+    const auto ids = [&](const CollisionRecord& record) {
+      return std::minmax(whole_.id(record.slot_i), whole_.id(record.slot_j));
+    };
+    const auto lists = lists_of([](Part& domain) -> const std::vector<CollisionRecord>& { return domain.collisions(); },
+                                collisions_elsewhere_, &RecordsBeforeRedraw::collisions,
+                                [](const CollisionRecord& record, double redraw) { return record.time == redraw; });
+    merge_records<CollisionRecord>(
+        lists, [](const CollisionRecord& a, const CollisionRecord& b) { return a.time < b.time; },
+        [&](const CollisionRecord& a, const CollisionRecord& b) { return ids(a) < ids(b); },
+        [&](const CollisionRecord& record) { recorder.hand_on(record), ++collisions_told_; });
+  }
   for (const auto& domain : here()) domain->clear_records();
 }
 

@@ -182,11 +182,13 @@ void Domains<Impact, Layout, World>::gather_records() {
     for (const auto& domain : here()) {
       packet.put_list(domain->logged());
       packet.put_list(domain->collisions());
+      packet.put_list(domain->redraws());
       domain->clear_records();
     }
   from_others(ranks_->gather(packet.bytes()), [this](std::size_t d, PacketReader& reader) {
     reader.take_list(events_elsewhere_[d]);
     reader.take_list(collisions_elsewhere_[d]);
+    reader.take_list(redraws_elsewhere_[d]);
   });
 }
 

@@ -739,6 +739,29 @@ TEST(Threads, TellTheCollisionsOfOneInstantInTheirOrder) {
   for (const std::size_t domains : {2U, 3U, 5U, 8U, 13U}) EXPECT_EQ(told_events(scene, {.domains = domains}), alone) << domains;
 }
 
+/// Most disks of a lattice meet in pairs at the time at which all velocities are redrawn, and some of them meet again at once.
+TEST(Threads, TellCollisionsAndRedrawsOfOneInstantInTheirOrder) {
+  Scene scene = lean_gas(400, 0.2, Boundary::walls);
+  scene.box = {{0.0, 0.0}, {40.0, 40.0}, {Boundary::walls, Boundary::walls}};
+  ListedPositions positions;
+  ListedVelocities velocities;
+  for (int x = 0; x < 20; ++x)
+    for (int y = 0; y < 20; ++y) {
+      positions.values.emplace_back(1.0 + 2.0 * x, 1.0 + 2.0 * y);
+      velocities.values.push_back(y % 3 == 0 ? Eigen::Vector2d(0.0, 0.5) : Eigen::Vector2d(x % 2 == 0 ? 1.0 : -1.0, 0.0));
+    }
+  scene.species.front().positions = positions;
+  scene.species.front().velocities = velocities;
+  redraw(scene, Redrawing::brownian, 2.0);
+  scene.run.time = 2.0;
+  scene.run.sample_every = 0.5;
+  const std::vector<double> alone = told_events(scene, {});
+  std::size_t at_once = 0;
+  for (std::size_t k = 0; k < alone.size(); k += 4) at_once += alone[k] == 0.5 ? 1U : 0U;
+  EXPECT_GT(at_once, 140U) << "130 pairs meet, and some of them again";
+  for (const std::size_t domains : {2U, 3U, 8U}) EXPECT_EQ(told_events(scene, {.domains = domains}), alone) << domains;
+}
+
 TEST(Threads, RefuseWhatTheyCannotDo) {
   Simulation simulation = make_simulation(lean_gas(100, 0.3, Boundary::walls));
   EXPECT_THROW(simulation.set_threads({.threads = 0}), std::invalid_argument);
