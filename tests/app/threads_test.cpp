@@ -7,6 +7,7 @@
 
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,20 @@ TEST_F(ThreadsOfRun, GiveTheSameObservablesOfCollisionsAndTheSameLog) {
   }
   expect_same_results("with1", "with2");
   EXPECT_EQ(carom({"verify", "with2"}).exit_code, 0);
+}
+
+/// Each domain counts its simultaneous collisions by itself, and leaves out those of two domains.
+TEST_F(ThreadsOfRun, AreVerifiedWhateverSimultaneousCollisionsTheyCount) {
+  for (const char* threads : {"1", "2"}) {
+    ASSERT_EQ(run(threads, {"-q", "--threads", threads}).exit_code, 0);
+    json told = summary(threads);
+    told["numerics"]["simultaneous"] = told["numerics"]["simultaneous"].get<int>() + 1;
+    std::ofstream(file(threads) / "summary.json") << told;
+  }
+  EXPECT_EQ(carom({"verify", "2"}).exit_code, 0);
+  const Outcome alone = carom({"verify", "1"});
+  EXPECT_NE(alone.exit_code, 0);
+  EXPECT_THAT(alone.out + alone.err, HasSubstr("/numerics/simultaneous"));
 }
 
 TEST_F(ThreadsOfRun, AreToldWithWhatTheyTook) {
