@@ -187,6 +187,9 @@ class Simulation {
   /// Does so on that many threads of each of the ranks, which must outlive the simulation (carom/ranks.hpp). This is rank 0; the
   /// others are in serve_ranks(). Throws std::runtime_error too where one of them has no memory for it.
   void set_threads(const Threads& threads, Ranks& ranks);
+  /// Returns how many threads (of each rank) compute it now: those of set_threads(), but 1 while an effect acts that has been set
+  /// since and does not run on several.
+  [[nodiscard]] std::size_t threads() const;
   /// Returns why this simulation runs on one core only, in half a sentence; empty where it can be shared out.
   [[nodiscard]] std::string why_not_threads() const;
   /// Returns what sharing it out has taken so far.

@@ -181,12 +181,13 @@ class Simulation:
     def threads(self) -> int:
         """How many cores compute this simulation, 1 to 32; no bit depends on it. May be set at any time.
 
-        Several pay from some 50,000 disks on, on a machine that is not busy with other work; `carom.run()` chooses by itself.
+        Several pay from some 50,000 disks on, on a machine that is not busy with other work; `carom.run()` chooses by itself. While
+        an effect acts that has been set since and does not run on several cores, such as shear, it is 1.
 
         Raises:
             ValueError: where several are asked for and the simulation cannot be shared out; it goes on with one.
         """
-        return self._core.thread_counts["threads"]
+        return self._core.threads
 
     @threads.setter
     def threads(self, threads: int) -> None:

@@ -445,6 +445,7 @@ void add_simulation(nb::module_& module) {
           "set_threads",
           [](Running& self, std::size_t threads) { self.use_alone([&](Simulation& s) { s.set_threads({.threads = threads}); }); },
           nb::arg("threads"))
+      .def_prop_ro("threads", [](Running& self) { return self.use([](Simulation& s) { return s.threads(); }); })
       .def_prop_ro("thread_counts",
                    [](Running& self) { return dict_of(self.use([](Simulation& s) { return s.thread_counts(); })); })
       .def("reset_clock", [](Running& self) { self.use([](Simulation& s) { s.reset_clock(); }); })

@@ -191,6 +191,7 @@ void Simulation::set_threads(const Threads& threads, Ranks& ranks) {
   parts_->ranks = &ranks;
   parts_->share_out();
 }
+std::size_t Simulation::threads() const { return parts_->engine->thread_counts().threads; }
 ThreadCounts Simulation::thread_counts() const {
   ThreadCounts counts = parts_->threads_before;
   counts.add(parts_->engine->thread_counts());

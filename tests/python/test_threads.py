@@ -60,6 +60,15 @@ def test_threads_are_kept_by_copies_and_forgotten_by_pickles() -> None:
     assert sim.state_hash == copied.state_hash == pickled.state_hash
 
 
+def test_threads_are_one_while_an_effect_acts_that_runs_on_one_core() -> None:
+    sim = carom.Simulation(many_disks(), threads=2)
+    sim.run_until(0.5)
+    sim.set("drag.rate", 1.0)
+    assert sim.threads == 1
+    sim.set("drag", None)
+    assert sim.threads == 2
+
+
 def test_threads_are_refused_where_one_core_must_do() -> None:
     sim = carom.Simulation(many_disks().set({"drag.rate": 1.0}))
     with pytest.raises(ValueError, match="this simulation runs on one core: drag slows the clock"):
