@@ -4,10 +4,11 @@
 // of pairs in wells or steps.
 //
 // A wall gives what it has received in Totals, with the other sign: wall_work as work, and the rest of wall_energy as heat. A
-// wall without temperature or restitution does work alone. No engine sums what drag takes, and what growing rough disks gain
-// with their moments of inertia: it is the energy gained that no other part explains. The numbers at the end are sums, not
-// means, and have no errors: a run has one of them, and the seeds of a sweep give their distribution. ThinnedRows keeps them
-// against time.
+// wall without temperature or restitution does work alone. What disks get at one that neither moves, slides nor vibrates is work
+// of their own surfaces as they grow, as it is at obstacles and other disks. No engine sums what drag takes, and what growing
+// rough disks gain with their moments of inertia: it is the energy gained that no other part explains. The numbers at the end are
+// sums, not means, and have no errors: a run has one of them, and the seeds of a sweep give their distribution. ThinnedRows keeps
+// them against time.
 
 #include "observe/energy.hpp"
 #include "observe/observables.hpp"
@@ -34,7 +35,8 @@ class Work final : public SavedObservable<Work>, public ChangeFollower {
       if (run.scene.box.periodic(axis_of_wall(side))) continue;
       const WallProperties& wall = effects.walls[side];
       const std::string name = wall_names[side];
-      if (may_move(wall) || wall.tangential_velocity || wall.vibration) list(work, "work_" + name, work_of_left + side);
+      does_work_[side] = may_move(wall) || wall.tangential_velocity || wall.vibration;
+      if (does_work_[side]) list(work, "work_" + name, work_of_left + side);
       if (wall.temperature || wall.restitution) list(heat, "heat_" + name, heat_of_left + side);
     }
     if (falls()) list(work, "work_field", of_field);
@@ -154,6 +156,8 @@ class Work final : public SavedObservable<Work>, public ChangeFollower {
       sums_[heat_of_left + side] += given - by_motion;
     }
     sums_[of_growth] = totals.growth_energy;
+    for (std::size_t side = 0; side < 4; ++side)
+      if (!does_work_[side]) sums_[of_growth] += sums_[work_of_left + side];
     sums_[of_shear] = totals.shear_energy;
     sums_[of_bath] = totals.thermostat_energy;
     sums_[of_collisions] = 0.0 - totals.dissipated;  // no negative zero
@@ -171,6 +175,7 @@ class Work final : public SavedObservable<Work>, public ChangeFollower {
   double field_before_ = 0.0;             ///< work of fields before the last change
   double energy_ = 0.0;                   ///< of the disks at the start
   double energy_before_ = 0.0;            ///< of the disks before the change that is being made
+  std::array<bool, 4> does_work_{};       ///< whether a wall has a part of its own in the work
   std::array<double, places> sums_{};
   std::array<double, 4> energies_{}, works_{};  ///< that walls had received at the last sample
   ThinnedRows rows_{0};                         ///< work, heat, and each part

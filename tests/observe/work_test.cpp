@@ -116,6 +116,23 @@ TEST(Work, OfOtherEffectsAddsUpToo) {
   expect_sum(observed(specular + "[shear]\nrate = 0.2\n", "\"periodic\""));
 }
 
+TEST(Work, OfGrowingDisksAtWallsIsWorkOfGrowth) {
+  const std::string growing = specular + "[growth]\nrate = 0.05\n";
+  const Observed plain = observed(growing);
+  expect_sum(plain);
+  double at_walls = 0.0;
+  for (const double energy : plain.totals.wall_energy) at_walls -= energy;
+  EXPECT_GT(at_walls, 0.1) << "surfaces that grow push themselves off";
+  EXPECT_NEAR(plain.numbers.at("work_growth"), plain.totals.growth_energy + at_walls, 1e-10);
+  EXPECT_EQ(plain.numbers.at("heat"), 0.0);
+  EXPECT_EQ(plain.numbers.count("work_left"), 0U) << "no wall moves";
+
+  expect_sum(observed(growing + "[walls]\nleft = { temperature = 2.0 }\ntop = { restitution = 0.9 }\n"));
+  expect_sum(observed(growing + "[walls]\nleft = { restitution = 1.0 }\ntop = { vibration = 0.5 }\n"));
+  expect_sum(observed(growing + "[walls]\nright = { temperature = 1.0, tangential_velocity = 0.5 }\n"));
+  expect_sum(observed(growing + "[gravity]\nacceleration = [0.0, -1.0]\n"));
+}
+
 TEST(Work, OfAnInelasticPistonIsTheEnergyOfMotionThatContactsTakeFromIt) {
   const Observed found = observed(specular + "[walls]\nright = { mass = 20.0, load = 0.5, restitution = 0.7 }\n");
   expect_sum(found);
