@@ -58,8 +58,10 @@ std::string_view why_no_Z(const Effects& effects, bool detail::EffectTraits::*pa
   return detail::first_reason(effects, &detail::EffectTraits::why_no_Z, passed_over);
 }
 
-std::string_view why_no_Z(const Scene& scene) {
-  return scene.changes.empty() ? why_no_Z(scene.effects) : "what acts changes during the run";
+std::string_view why_no_Z(const Scene& scene) { return scene.changes.empty() ? why_no_Z(scene.effects) : why_not_one_gas(scene); }
+
+std::string_view why_not_one_gas(const Scene& scene) {
+  return scene.changes.empty() ? std::string_view() : "what acts changes during the run";
 }
 
 bool temperature_fluctuates(const Effects& effects) {

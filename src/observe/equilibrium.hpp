@@ -16,6 +16,9 @@ namespace carom {
 [[nodiscard]] std::string_view why_no_Z(const Effects& effects, bool detail::EffectTraits::*passed_over = nullptr);
 /// Does so for a scene, whose effects may change during the run.
 [[nodiscard]] std::string_view why_no_Z(const Scene& scene);
+/// Returns why the run is not that of one gas in equilibrium throughout, as the end of a sentence; empty where nothing is changed
+/// on the way.
+[[nodiscard]] std::string_view why_not_one_gas(const Scene& scene);
 
 /// Returns whether the kinetic energy fluctuates, because a heat bath, spins or wells take part in it. Z is then computed with
 /// the mean of the temperature, and not with that of one state.

@@ -5,9 +5,11 @@
 //   Einstein-Helfand:  <(G(t) - G(0))^2> / 2 t.
 // Both are averages over time, of two components that isotropy makes equal.
 //
-// Velocities are relative to the common motion.
+// Velocities are relative to the common motion. kT is that of the start, which collisions keep: a run with changes has
+// the correlation of the flux alone.
 
 #include "observe/blocking.hpp"
+#include "observe/equilibrium.hpp"
 #include "observe/followers.hpp"
 #include "observe/mechanics.hpp"
 #include "observe/multiple_tau.hpp"
@@ -150,11 +152,14 @@ Measurement Transport::finish(double time, const Totals&) {
   found.scalars.push_back(
       coefficient("einstein_helfand", unit, step, last == nullptr ? 0.0 : factor / (2.0 * step * last->lag), last));
 
-  if (std::ranges::any_of(mean_flux_, flows_steadily)) {
+  const bool is_one_gas = why_not_one_gas(run_.scene).empty();
+  if (!is_one_gas)
+    found.note = why_not_one_gas(run_.scene);
+  else if (std::ranges::any_of(mean_flux_, flows_steadily))
     found.note =
         "the flux has a mean that is not zero, as the stress of a strained crystal: its growth is no transport coefficient";
+  if (!found.note.empty())
     for (Scalar& scalar : found.scalars) scalar = {.name = scalar.name, .unit = unit, .note = found.note};
-  }
   if (found.note.empty()) found.note = MultipleTau::note_on_errors(moments);
   Table table{.name = name};
   Column lags{"lag", "time", {}}, flux{"correlation", unit_of_flux, {}}, flux_error{"correlation_error", unit_of_flux, {}};
@@ -178,10 +183,13 @@ Measurement Transport::finish(double time, const Totals&) {
     helfand.values.push_back(there ? scale * same->pairs.mean : unknown);
     helfand_error.values.push_back(there && same->pairs.error ? scale * *same->pairs.error : unknown);
   }
-  table.columns = {lags, flux, flux_error, until, integral, integral_error, helfand, helfand_error};
+  table.columns = {lags, flux, flux_error};
   of_flux.put(table, flux.name);
-  of_integral.put(table, integral.name);
-  of_helfand.put(table, helfand.name);
+  if (is_one_gas) {
+    for (const Column& column : {until, integral, integral_error, helfand, helfand_error}) table.columns.push_back(column);
+    of_integral.put(table, integral.name);
+    of_helfand.put(table, helfand.name);
+  }
   found.tables.push_back(std::move(table));
   return found;
 }

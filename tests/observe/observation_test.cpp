@@ -160,6 +160,20 @@ TEST(Observation, TellsWhyANumberIsMissing) {
   EXPECT_THAT(o.scalar("pressure", "Z_walls").note, HasSubstr("no walls"));
 }
 
+TEST(Observation, HasNoTransportCoefficientsOfARunThatChanges) {
+  const std::string scene =
+      small_fluid("viscosity = { every = 0.02 }\nheat_conductivity = { every = 0.02 }\n", "specular", "40.0");
+  const std::string change = "[[changes]]\ntime = 0.0\nscale_velocities = 2.0\n";
+  const Observed steady = observe(parse_scene(scene), 1.0), heated = observe(parse_scene(scene + change), 1.0);
+  for (const char* name : {"viscosity", "heat_conductivity"})
+    for (const char* number : {"green_kubo", "einstein_helfand"}) {
+      EXPECT_TRUE(steady.scalar(name, number).value) << name << "." << number;
+      EXPECT_FALSE(heated.scalar(name, number).value) << name << "." << number << " with kT of the start";
+      EXPECT_THAT(heated.scalar(name, number).note, HasSubstr("changes during the run"));
+    }
+  EXPECT_EQ(heated.of("viscosity").tables.at(0).columns.size(), 3U) << "lag and correlation of the flux, which need no kT";
+}
+
 TEST(Observation, SaysBesideTheNumbersThatErrorsAreOfOneStart) {
   for (const char* rule : {"reversal", "specular"}) {
     const Observed o = observe(parse_scene(small_fluid("pressure = true\nspeeds = true", rule)), 1.0);
