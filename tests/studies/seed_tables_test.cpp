@@ -86,6 +86,27 @@ TEST(MeanOfTables, OfOtherLagsIsRefused) {
   }
 }
 
+TEST(SeedTables, OfRadiiDrawnWithEachSeedSayThatTheseDiffer) {
+  const SweepFiles files;
+  const fs::path out = files.directory().path() / "out";
+  const auto fault = [&](const std::string& radius, const std::string& first_column) {
+    const Sweep sweep = files.load("scene = \"gas.toml\"\nseeds = 2\n[set]\ndisks.0.radius = " + radius + "\n");
+    SweepResults results;
+    for (std::size_t run = 0; run < sweep.run_count(); ++run) {
+      results.runs.push_back({.state = RunState::finished});
+      fs::create_directories(out / sweep.directory_of(run));
+      write_text(out / sweep.directory_of(run) / "observe_x.csv",
+                 "# averages over time; units: " + first_column + ",x\n0.5,1\n" + std::to_string(run + 1) + ",2\n");
+    }
+    return seed_tables_of(sweep, results, out).at(0).fault;
+  };
+  const std::string law = "{ uniform = [0.01, 0.02] }";
+  EXPECT_THAT(fault(law, "length, 1\nr"), HasSubstr("its r differs from seed to seed, because it follows the radii"));
+  EXPECT_THAT(fault(law, "1 / length, 1\nk"), HasSubstr("give the radii as a list"));
+  EXPECT_THAT(fault(law, "time, 1\nlag"), HasSubstr("give the observable a step"));
+  EXPECT_THAT(fault("0.01", "length, 1\nr"), HasSubstr("give the observable a step"));
+}
+
 TEST(SeedTables, OfAPointAreThoseOfItsRuns) {
   const SweepFiles files;
   const Sweep sweep = files.load("scene = \"gas.toml\"\nseeds = 3\n[grid]\nrun.time = [1.0, 2.0]\n");

@@ -33,6 +33,17 @@ bool is_error_column(const Table& table, const Column& column) {
          find_column(table, column.name.substr(0, column.name.size() - error_ending.size())) != nullptr;
 }
 
+/// Returns why tables of which this is the first column have no mean. Observables take their own lengths from the mean diameter.
+std::string why_rows_differ(const Column& column, bool radii_are_drawn) {
+  if (radii_are_drawn && (column.unit == "length" || column.unit == "1 / length"))
+    return fmt::format(
+        "its {} differs from seed to seed, because it follows the radii, and these are drawn; give the radii as a "
+        "list, radius = [...], that is the same for all",
+        column.name);
+  return fmt::format("its {} differs from seed to seed; give the observable a step, every = ..., that is the same for all",
+                     column.name);
+}
+
 bool same_number(double a, double b) { return std::isnan(a) ? std::isnan(b) : a == b || !differ(a, b); }
 
 /// Returns the middle of the cell that contains a place, of cells of one width whose middles are given; nothing beyond them. One
@@ -135,7 +146,7 @@ std::optional<double> value_at(const Table& table, const std::string& column, co
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-Table mean_of_tables(const std::vector<Table>& tables) {
+Table mean_of_tables(const std::vector<Table>& tables, bool radii_are_drawn) {
   const Table& first = tables.front();
   Table mean{.name = first.name, .average = first.average};
   std::size_t rows = first.columns.front().values.size();
@@ -152,11 +163,7 @@ Table mean_of_tables(const std::vector<Table>& tables) {
     bool equal = true;
     for (const Table& table : tables)
       for (std::size_t r = 0; r < rows; ++r) equal = equal && same_number(table.columns[c].values[r], column.values[r]);
-    if (c == 0 && !equal)
-      throw std::runtime_error(
-          fmt::format("its {} differs from seed to seed; give the observable a step, every = ..., that is the "
-                      "same for all",
-                      column.name));
+    if (c == 0 && !equal) throw std::runtime_error(why_rows_differ(column, radii_are_drawn));
     const bool is_key = c == 0 || (equal && find_column(first, column.name + std::string(error_ending)) == nullptr);
     Column values{column.name, column.unit, {}}, errors{column.name + std::string(error_ending), column.unit, {}};
     for (std::size_t r = 0; r < rows; ++r) {
@@ -182,6 +189,8 @@ std::vector<SeedTable> seed_tables_of(const Sweep& sweep, const SweepResults& re
       if (const std::size_t run = point * sweep.seeds.size() + seed; results.runs[run].state == RunState::finished)
         finished.push_back(directory / sweep.directory_of(run));
     if (finished.size() < 2) continue;
+    const Scene scene = sweep.scene_of(point * sweep.seeds.size());
+    const bool radii_are_drawn = std::ranges::any_of(scene.species, &Species::radii_are_drawn);
     std::set<std::string> names;  // in the order of the alphabet
     for (const auto& entry : fs::directory_iterator(finished.front())) {
       const std::string name = entry.path().filename().string();
@@ -196,7 +205,7 @@ std::vector<SeedTable> seed_tables_of(const Sweep& sweep, const SweepResults& re
         if (tables.size() < 2) continue;
         one.table.name = tables.front().name;
         one.seeds = tables.size();
-        one.table = mean_of_tables(tables);
+        one.table = mean_of_tables(tables, radii_are_drawn);
       } catch (const std::runtime_error& error) {
         one.fault = error.what();
       }

@@ -31,8 +31,9 @@ namespace carom {
 
 /// Returns the table of means over tables of the same columns, row by row. Columns that come with errors, and others that differ,
 /// have the standard error of independent seeds in `NAME_error`; NaN is left out. Rows are those that all have. Throws
-/// std::runtime_error, with a sentence without its stop, where columns differ, or the values of the first one.
-[[nodiscard]] Table mean_of_tables(const std::vector<Table>& tables);
+/// std::runtime_error, with a sentence without its stop, where columns differ, or the values of the first one;
+/// `radii_are_drawn`, by each seed, may be why.
+[[nodiscard]] Table mean_of_tables(const std::vector<Table>& tables, bool radii_are_drawn = false);
 
 /// A table of one point, over its finished seeds.
 struct SeedTable {
