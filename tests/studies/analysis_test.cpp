@@ -115,6 +115,10 @@ std::vector<Kept> kept_runs() {
       {"walls_that_do_something",
        mixture + "[walls]\ntop = { velocity = 0.05 }\nbottom = { temperature = 3.0 }\n" +
            observing("temperature = { every = 0.1 }\npressure = { every = 0.3 }\nwall_fluxes = { every = 0.3 }\n")},
+      {"fields_between_walls_that_have_moved",
+       mixture + "[walls]\ntop = { velocity = 0.05 }\n" +
+           observing("fields = { every = 0.3 }\ndensity_profile = { every = 0.7 }\n"),
+       "time = 12.0\nsample_every = 0.1\nequilibrate = { time = 5.0 }\n"},
       {"thermostat", fluid + "[thermostat]\ntemperature = 1.0\nrate = 0.5\n" + observing(of_states + of_structure + of_motion)},
       {"growth", fluid + "[growth]\nrate = 0.005\n" + observing("temperature = { every = 0.1 }\npressure = { every = 0.3 }\n")},
       {"shear", fluid + "[shear]\nrate = 0.1\n" +

@@ -98,7 +98,9 @@ void feed(const RunReader& run, const Scene& scene, ObservableGroup& group, cons
   std::vector<std::pair<std::uint64_t, std::vector<Observable*>>> by_stride;
   for (auto& [step, observables] : group.by_step()) by_stride.emplace_back(times->stride(step).value(), observables);
   Log log(run);
-  group.start(follows ? run.start() : run.sample(0));
+  State start = follows ? run.start() : run.sample(0);
+  if (follows && run.samples() > 0) start.walls = run.sample(0).walls;  // the start of the log has disks alone
+  group.start(start);
   for (std::uint64_t k = 0; k < run.samples(); ++k) {
     const auto wants = [&](const auto& of) { return k % of.first == 0; };
     if (std::none_of(by_stride.begin(), by_stride.end(), wants)) continue;
