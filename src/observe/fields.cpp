@@ -40,6 +40,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace carom {
@@ -192,12 +193,10 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
     steps_of_stretch_ *= 2;
   }
 
-  void change(bool made, const Effects& effects, const State& state, const Totals&) override {
-    if (!made) return;
-    potential_ = effects.potential_steps();
-    spins_ = state.spins;
+  void pass(const Change& change, const Effects& acting) override {
+    potential_ = acting.potential_steps();
+    if (const auto* scale = std::get_if<ScaleVelocities>(&change.what)) spins_ *= scale->factor;
   }
-  void end(const State&, const Totals&) override {}
 
   [[nodiscard]] Measurement finish(double, const Totals&) override {
     Measurement found{.name = name(), .note = note_on_disks_outside(outside_, seen_)};

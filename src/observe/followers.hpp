@@ -3,6 +3,7 @@
 
 #include "observe/collision_fluxes.hpp"
 
+#include <carom/changes.hpp>
 #include <carom/collisions.hpp>
 #include <carom/effects.hpp>
 #include <carom/state.hpp>
@@ -27,10 +28,14 @@ class FluxFollower {
 class ChangeFollower {
  public:
   virtual ~ChangeFollower() = default;
-  /// Called just before (made = false) and just after (true) each change. `effects` are those that act then.
-  virtual void change(bool made, const Effects& effects, const State& state, const Totals& totals) = 0;
-  /// Called with the last state, before the results are asked for.
-  virtual void end(const State& state, const Totals& totals) = 0;
+  /// Passes on a change that has been made, after which `acting` act: in a run, and from the files of one that is over. All
+  /// collisions and samples before it have been passed on, and none after.
+  virtual void pass(const Change& /*change*/, const Effects& /*acting*/) {}
+  /// Called just before (made = false) and just after (true) each change of a run that goes on. `effects` are those that act
+  /// then.
+  virtual void change(bool /*made*/, const Effects& /*effects*/, const State& /*state*/, const Totals& /*totals*/) {}
+  /// Called with the last state of a run that goes on, before the results are asked for.
+  virtual void end(const State& /*state*/, const Totals& /*totals*/) {}
 };
 
 /// Reads the records of collisions in which disks touch.

@@ -108,11 +108,12 @@ void ObservableGroup::changed(std::size_t changes) {
   while (changes_ < changes) pass_change();
 }
 
-/// Passes on the next change of the scene to what follows collisions.
+/// Passes on the next change of the scene.
 void ObservableGroup::pass_change() {
   const Change& change = run_.scene.changes[changes_++];
   acting_ = effects_after(acting_, change);
   if (stream_) stream_->change(change, acting_);
+  for (ChangeFollower* follower : change_followers_) follower->pass(change, acting_);
 }
 
 void ObservableGroup::follow(const CollisionRecords& collisions) {

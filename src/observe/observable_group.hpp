@@ -47,7 +47,7 @@ class ObservableGroup {
   void follow(std::span<const Event> events);
   /// Returns whether change() and end() are to be called.
   [[nodiscard]] bool follows_changes() const { return !change_followers_.empty() || !run_.scene.changes.empty(); }
-  /// Says that the scene has made so many of its changes, and that events to come are later.
+  /// Says that the scene has made so many of its changes, and that events and samples to come are later.
   void changed(std::size_t changes);
   /// Passes on a change of the scene, just before (made = false) and just after it, when all before it was passed on.
   void change(bool made, const Effects& effects, const State& state, const Totals& totals);

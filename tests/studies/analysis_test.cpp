@@ -119,6 +119,13 @@ std::vector<Kept> kept_runs() {
        mixture + "[walls]\ntop = { velocity = 0.05 }\n" +
            observing("fields = { every = 0.3 }\ndensity_profile = { every = 0.7 }\n"),
        "time = 12.0\nsample_every = 0.1\nequilibrate = { time = 5.0 }\n"},
+      {"fields_where_a_well_is_changed",
+       fluid + observing("fields = { every = 0.1 }\n") +
+           "[[changes]]\ntime = 3.0\nset = [\"square_well.width=1.5\", \"square_well.depth=0.7\"]\n[[changes]]\ntime = 7.05\n"
+           "set = [\"square_well.depth=0.2\"]\n"},
+      {"fields_of_rough_disks_made_faster", mixture_between_walls + "[collision]\nrule = \"specular\"\nroughness = 0.5\n" +
+                                                observing("fields = { every = 0.3 }\n") +
+                                                "[[changes]]\ntime = 3.05\nscale_velocities = 2.0\n"},
       {"thermostat", fluid + "[thermostat]\ntemperature = 1.0\nrate = 0.5\n" + observing(of_states + of_structure + of_motion)},
       {"growth", fluid + "[growth]\nrate = 0.005\n" + observing("temperature = { every = 0.1 }\npressure = { every = 0.3 }\n")},
       {"shear", fluid + "[shear]\nrate = 0.1\n" +

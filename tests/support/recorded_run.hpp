@@ -13,7 +13,7 @@ namespace carom::test {
 
 inline RunReport record(const Scene& scene, const std::filesystem::path& directory) {
   Simulation simulation = make_simulation(scene);
-  RunWriter writer(RunDirectory(directory, false), scene, simulation.disks(),
+  RunWriter writer(RunDirectory(directory, false), simulation.whole_scene(), simulation.disks(),
                    {.resolved_scene = resolved_toml(scene), .command_line = "in a test", .engine = simulation.engine()});
   RunMeasurements measurements(simulation);
   RunHooks hooks;

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -62,11 +63,11 @@ class Log {
  public:
   explicit Log(const RunReader& run) : run_(run), left_(run.events()) {}
 
-  /// Hands on all events before number `pairs` + 1 of those of two disks.
-  void follow_to(std::uint64_t pairs, ObservableGroup& group) {
+  /// Hands on the events up to number `pairs` of those of two disks, and others up to `time`.
+  void follow_to(std::uint64_t pairs, double time, ObservableGroup& group) {
     for (;;) {
       std::size_t end = next_;
-      while (end < piece_.size() && (piece_[end].partner < 0 || pairs_ < pairs))
+      while (end < piece_.size() && (piece_[end].partner < 0 ? piece_[end].time <= time : pairs_ < pairs))
         if (piece_[end++].partner >= 0) ++pairs_;
       group.follow(std::span(piece_).subspan(next_, end - next_));
       next_ = end;
@@ -92,6 +93,14 @@ class Log {
   std::uint64_t pairs_ = 0;  ///< events of two disks so far
 };
 
+/// Returns how many of the scene's changes come before a sample. One of its own time does where the sample is later by the
+/// rounding of its step.
+std::size_t changes_before(const Scene& scene, const Instant& sample) {
+  return static_cast<std::size_t>(std::ranges::count_if(scene.changes, [&](const Change& change) {
+    return Instant{change.time, 0.0} < sample;
+  }));
+}
+
 void feed(const RunReader& run, const Scene& scene, ObservableGroup& group, const std::function<void(double)>& progress) {
   const bool follows = group.follows_collisions();
   const std::optional<SamplingTimes> times = SamplingTimes::of(scene.run);
@@ -106,13 +115,14 @@ void feed(const RunReader& run, const Scene& scene, ObservableGroup& group, cons
     if (std::none_of(by_stride.begin(), by_stride.end(), wants)) continue;
     if (progress) progress(static_cast<double>(k) / static_cast<double>(run.samples()));
     const Totals totals = run.totals(k);
-    if (follows) log.follow_to(totals.pair + totals.well, group);
     const State state = run.sample(k);
+    if (follows) log.follow_to(totals.pair + totals.well, state.time, group);
+    group.changed(changes_before(scene, times->at(k)));
     for (const auto& of : by_stride)
       if (wants(of))
         for (Observable* observable : of.second) observable->sample(state, totals);
   }
-  if (follows) log.follow_to(run.events(), group);
+  if (follows) log.follow_to(run.events(), std::numeric_limits<double>::infinity(), group);
 }
 
 }  // namespace
