@@ -80,6 +80,17 @@ std::string_view why_errors_are_of_one_start(const Scene& scene) {
   return "under reversal, disks of equal mass only exchange velocities: another start may differ by more than the errors";
 }
 
+std::string_view why_displacements_are_of_one_start(const Scene& scene) {
+  const auto keeps_turning = [&](const detail::EffectTraits& effect) {
+    return effect.conserves_angular_momentum || !effect.acts(scene.effects);
+  };
+  if (!scene.box.is_circle || scene.disk_count() < 2 || scene.effects.collision.rule != CollisionRule::specular ||
+      !std::ranges::all_of(detail::all_effects(), keeps_turning))
+    return {};
+  return "in a circular box all disks together keep turning as they did at the start: another start may differ by more than the "
+         "errors";
+}
+
 bool is_crystal(const Scene& scene) { return scene.packing_fraction() > densest_fluid && detail::radii_of(scene).equal(); }
 
 std::string_view why_errors_are_lower_bounds(const Scene& scene, double collisions_per_disk) {

@@ -29,6 +29,10 @@ namespace carom {
 /// arrangement for long.
 [[nodiscard]] std::string_view why_errors_are_of_one_start(const Scene& scene);
 
+/// Returns why errors of displacements and of the autocorrelation of velocities do not cover that scatter, as such a sentence,
+/// where all disks together keep turning as they did at the start; empty where they do not.
+[[nodiscard]] std::string_view why_displacements_are_of_one_start(const Scene& scene);
+
 /// Returns the reason why errors are lower bounds, as a sentence without its stop; empty where the run lasts 32 times as long as
 /// its slowest motion. The summary's Z has 32 blocks or more. The slowest motion, in collisions of a disk, lasts for:
 /// - disks of masses m to M: (m + M)^2 / 2 m M. A collision passes on the inverse of it of the difference of their mean energies;

@@ -3,6 +3,7 @@
 // the same one whatever its seed. Averages over time, of some disks of each species.
 
 #include "observe/blocking.hpp"
+#include "observe/equilibrium.hpp"
 #include "observe/multiple_tau.hpp"
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"
@@ -12,6 +13,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace carom {
@@ -71,13 +74,18 @@ class MeanSquareDisplacement final : public SavedObservable<MeanSquareDisplaceme
       for (Column* column : {&square, &error, &diffusion, &its_error}) table.columns.push_back(std::move(*column));
     }
     found.note = MultipleTau::note_on_errors(all);
-    const auto add_note = [&](const char* sentence) { found.note += (found.note.empty() ? "" : "; ") + std::string(sentence); };
-    if (!run_.scene.box.periodic(0) || !run_.scene.box.periodic(1))
+    const auto add_note = [&](std::string_view sentence) {
+      found.note += (found.note.empty() ? "" : "; ") + std::string(sentence);
+    };
+    const std::string_view of_one_start = why_displacements_are_of_one_start(run_.scene);
+    if (!of_one_start.empty())
+      add_note(of_one_start);
+    else if (!run_.scene.box.periodic(0) || !run_.scene.box.periodic(1))
       add_note("between walls errors at long lags are up to 1.3 times too large");
     for (int axis = 0; axis < 2; ++axis)
       if (run_.drifts_along(axis) && !run_.scene.box.periodic(1 - axis))
         add_note("disks drift with a flow that differs from place to place: only its mean is taken out");
-    if (run_.disks.count() < few) add_note("errors of so few disks are up to 1.4 times too large");
+    if (of_one_start.empty() && run_.disks.count() < few) add_note("errors of so few disks are up to 1.4 times too large");
     put_table(found, std::move(table));
     return found;
   }
