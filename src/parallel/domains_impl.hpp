@@ -579,7 +579,8 @@ void Domains<Impact, Layout, World>::hand_over_records() {
   }
   if (recorder.listening()) {
     const auto ids = [&](const CollisionRecord& record) {
-      return std::minmax(whole_.id(record.slot_i), whole_.id(record.slot_j));
+      const std::int32_t i = whole_.id(record.slot_i), j = whole_.id(record.slot_j);
+      return std::pair(std::min(i, j), std::max(i, j));
     };
     const auto lists = lists_of([](Part& domain) -> const std::vector<CollisionRecord>& { return domain.collisions(); },
                                 collisions_elsewhere_, &RecordsBeforeRedraw::collisions,

@@ -5,10 +5,14 @@
 #include <carom/state.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <map>
 #include <span>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace carom {
@@ -35,6 +39,9 @@ inline bool is_same(const Event& a, const Event& b) {
          a.velocity == b.velocity && a.partner_velocity == b.partner_velocity;
 }
 
+inline std::array<std::int32_t, 2> disks_of(const CollisionRecord& record) { return {record.slot_i, record.slot_j}; }
+inline std::array<std::int32_t, 2> disks_of(const Event& event) { return {event.disk, event.partner}; }
+
 }  // namespace detail
 
 /// The records of one domain, in order by itself.
@@ -58,17 +65,53 @@ struct DomainRecords {
   }
 };
 
+namespace detail {
+
+/// Where records of the same disks at the same time are, in all lists. Many may come at one time, from a lattice, so that to look
+/// through all of these for each of them takes too long.
+template <class Record>
+class Twins {
+ public:
+  explicit Twins(std::span<const DomainRecords<Record>> lists) : lists_(lists) {}
+
+  /// Returns list and number in it of all that are like this one.
+  [[nodiscard]] const std::vector<std::pair<std::size_t, std::size_t>>& of(const Record& record) {
+    if (places_.empty())
+      for (std::size_t d = 0; d < lists_.size(); ++d)
+        for (std::size_t k = 0; k < lists_[d].size(); ++k) places_[key(lists_[d][k])].emplace_back(d, k);
+    return places_[key(record)];
+  }
+
+ private:
+  [[nodiscard]] static std::tuple<double, std::int32_t, std::int32_t> key(const Record& record) {
+    const auto [i, j] = disks_of(record);
+    return {record.time, i, j};
+  }
+
+  std::span<const DomainRecords<Record>> lists_;
+  std::map<std::tuple<double, std::int32_t, std::int32_t>, std::vector<std::pair<std::size_t, std::size_t>>> places_;
+};
+
+}  // namespace detail
+
 /// Calls take(record) once for the records of all lists. They come in the order of is_earlier(); those of one time by the redraws
 /// that came before them, as one core runs to the time of a redraw first; then in the order of is_lower(). A record of two lists
 /// has its turn when it is the next of both: at one instant that keeps causes before effects.
 template <class Record, class IsEarlier, class IsLower, class Take>
 void merge_records(std::span<const DomainRecords<Record>> lists, IsEarlier&& is_earlier, IsLower&& is_lower, Take&& take) {
   std::vector<std::size_t> next(lists.size());
+  detail::Twins<Record> twins(lists);
+  /// Whether another list has to come to the same record first.
   const auto waits = [&](const Record& entry) {
-    for (std::size_t d = 0; d < lists.size(); ++d)
-      for (std::size_t k = next[d] + 1; k < lists[d].size() && lists[d][k].time == entry.time; ++k)
-        if (detail::is_same(lists[d][k], entry) && !detail::is_same(lists[d][next[d]], entry)) return true;
-    return false;
+    const auto follows_at_once = [&](std::size_t d) {
+      return next[d] + 1 < lists[d].size() && lists[d][next[d] + 1].time == entry.time;
+    };
+    bool may_be = false;
+    for (std::size_t d = 0; d < lists.size(); ++d) may_be = may_be || follows_at_once(d);
+    return may_be && std::ranges::any_of(twins.of(entry), [&](const auto& at) {
+             const auto& [d, k] = at;
+             return k > next[d] && detail::is_same(lists[d][k], entry) && !detail::is_same(lists[d][next[d]], entry);
+           });
   };
   const auto before = [&](std::size_t d, std::size_t other) {
     const Record &a = lists[d][next[d]], &b = lists[other][next[other]];

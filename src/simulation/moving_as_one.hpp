@@ -3,6 +3,7 @@
 // never cools. Against it relative speeds become so small that ever more events pass from one collision to the next.
 
 #include "core/all_events.hpp"
+#include "core/instant.hpp"
 #include "simulation/any_engine.hpp"
 
 #include <carom/scene.hpp>
@@ -11,6 +12,7 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -23,28 +25,60 @@ class MovingAsOne {
   /// The run begins, or goes on, where `engine` is.
   MovingAsOne(const AnyEngine& engine, const Scene& scene, const Disks& disks)
       : disks_(disks),
+        sides_(scene.box.lengths().sum()),
         window_(std::max<std::uint64_t>(16, disks.count() / 2)),
+        next_collisions_(following(engine.counts().pair)),
         events_then_(all_events(engine.counts())),
-        millions_(all_events(engine.counts()) / million) {
+        pairs_then_(engine.counts().pair) {
     for (int axis = 0; axis < 2; ++axis)
       kept_[axis] = scene.effects.dissipate() && !centre_of_mass_is_thermal(scene.box, scene.effects, axis);
-  }
-
-  /// The number of collisions of pairs at which reached() looks next: the same wherever else the run stops.
-  [[nodiscard]] std::uint64_t collisions_at_look(const Counts& counts) const {
-    return can_be() ? (counts.pair / window_ + 1) * window_ : std::numeric_limits<std::uint64_t>::max();
-  }
-
-  /// How many events may happen before reached() is to be called again, which also looks where disks have not met for a million.
-  [[nodiscard]] std::uint64_t events_until_look(const Counts& counts) const {
-    return can_be() ? million - all_events(counts) % million : std::numeric_limits<std::uint64_t>::max();
-  }
-
-  /// Whether disks move together more than 2^14 times as fast, in the mean, as they move otherwise.
-  [[nodiscard]] bool reached(const AnyEngine& engine) {
-    if (!can_be() || !is_due(engine.counts())) return false;
+    if (!can_be()) return;
     State state;
     engine.store_velocities(state);
+    next_time_ = time_after(engine.now(), state);
+  }
+
+  /// The number of collisions of pairs, and the time, at which reached() looks next: the same wherever else the run stops, and on
+  /// any number of cores.
+  [[nodiscard]] std::uint64_t collisions_at_look() const {
+    return can_be() ? next_collisions_ : std::numeric_limits<std::uint64_t>::max();
+  }
+  [[nodiscard]] const Instant& time_of_look() const { return next_time_; }
+
+  /// Whether disks move together more than 2^14 times as fast, in the mean, as they move otherwise. Looks at all disks where few
+  /// of the events since the last look were collisions, or none. `timely`: the run has come to time_of_look(), which the clock of
+  /// an engine may round.
+  [[nodiscard]] bool reached(const AnyEngine& engine, bool timely) {
+    if (!can_be()) return false;
+    const std::uint64_t pairs = engine.counts().pair, events = all_events(engine.counts());
+    bool hardly_met = false, never_met = false;
+    if (pairs >= next_collisions_) {
+      hardly_met = events - std::exchange(events_then_, events) > 16 * window_;
+      next_collisions_ = following(pairs);
+    }
+    if (timely) never_met = std::exchange(pairs_then_, pairs) == pairs;
+    if (!timely && !hardly_met) return false;
+    State state;
+    engine.store_velocities(state);
+    if (timely) next_time_ = time_after(engine.now(), state);
+    return (hardly_met || never_met) && move_together(state);
+  }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(next_collisions_, next_time_, events_then_, pairs_then_);
+  }
+
+ private:
+  [[nodiscard]] bool can_be() const { return kept_[0] || kept_[1]; }
+  [[nodiscard]] std::uint64_t following(std::uint64_t pairs) const { return (pairs / window_ + 1) * window_; }
+  /// When the fastest disk will have gone ten times along both sides of the box.
+  [[nodiscard]] Instant time_after(const Instant& now, const State& state) const {
+    const double fastest = state.velocities.size() > 0 ? state.velocities.cwiseAbs().maxCoeff() : 0.0;
+    const double time = 10.0 * sides_ / fastest;
+    return std::isfinite(time) ? now.plus(time) : forever;
+  }
+  [[nodiscard]] bool move_together(const State& state) const {
     const double mass = disks_.total_mass();
     Eigen::Vector2d common = Eigen::Vector2d::Zero();
     for (Eigen::Index i = 0; i < state.velocities.cols(); ++i) common += share(i, mass) * state.velocities.col(i);
@@ -55,33 +89,16 @@ class MovingAsOne {
       otherwise += share(i, mass) * (state.velocities.col(i) - common).cwiseAbs().sum();
     return otherwise < 0x1p-14 * common.cwiseAbs().sum();
   }
-
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive(events_then_, millions_, pairs_then_);
-  }
-
- private:
-  static constexpr std::uint64_t million = 1'000'000;
-
-  [[nodiscard]] bool can_be() const { return kept_[0] || kept_[1]; }
-  /// Whether so few of all events have been collisions that it is worth to look at all disks.
-  [[nodiscard]] bool is_due(const Counts& counts) {
-    const std::uint64_t pairs = counts.pair, events = all_events(counts);
-    const bool another_million = std::exchange(millions_, events / million) != events / million;
-    const bool never_met = another_million && std::exchange(pairs_then_, pairs) == pairs;
-    const bool another_window = pairs > 0 && pairs % window_ == 0;
-    const bool hardly_met = another_window && events - std::exchange(events_then_, events) > 16 * window_;
-    return never_met || hardly_met;
-  }
   [[nodiscard]] double share(Eigen::Index i, double mass) const { return disks_.mass[static_cast<std::size_t>(i)] / mass; }
 
   const Disks& disks_;
-  std::uint64_t window_;                                                  ///< collisions of pairs from one look to the next
-  std::uint64_t events_then_;                                             ///< at the last of these
-  std::uint64_t millions_;                                                ///< of events
-  std::uint64_t pairs_then_ = std::numeric_limits<std::uint64_t>::max();  ///< collisions of pairs when the last million was full
-  bool kept_[2];                                                          ///< momentum along an axis, by disks that lose energy
+  double sides_;                   ///< of the box, together
+  std::uint64_t window_;           ///< collisions of pairs from one look to the next
+  std::uint64_t next_collisions_;  ///< of pairs, at the next look
+  Instant next_time_ = forever;    ///< of the next look at whether there were any
+  std::uint64_t events_then_;      ///< at the last look by collisions
+  std::uint64_t pairs_then_;       ///< at the last look by time
+  bool kept_[2];                   ///< momentum along an axis, by disks that lose energy
 };
 
 }  // namespace carom::detail

@@ -122,6 +122,8 @@ void Simulation::save(std::ostream& out) const {
           parts.clock_began);
   archive(parts.continuation.wall_draws, parts.continuation.thermostat_events, state());
   parts.engine->save(archive);
+  archive(parts.standstill.has_value());
+  if (parts.standstill) archive(*parts_->standstill);
   checked.finish();
 }
 
@@ -163,6 +165,10 @@ Simulation restore_simulation(const Scene& given, std::istream& in) {
     parts.whole.reset();
     parts.keep_whole(given);
     parts.engine->load(archive);
+    bool has_run = false;
+    archive(has_run);
+    if (has_run)
+      archive(parts.standstill.emplace(*parts.engine, parts.disks.count(), parts.smallest_radius, parts.scene.effects));
     if (!checked.at_end()) throw std::runtime_error("it holds more than a simulation");
     return simulation;
   } catch (const SceneError&) {

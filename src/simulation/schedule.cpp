@@ -342,9 +342,19 @@ class Schedule {
         if (!hooks_.proceed(progress())) return stop(StopReason::interrupted);
       }
       if (hooks_.checkpoint) hooks_.checkpoint(saving_moment(false));
-      const std::uint64_t look =
-          std::min(standstill_.collisions_at_look(), moving_as_one_->collisions_at_look(engine().counts()));
-      const bool arrived = run_stretch(target, std::min({collisions, next_block_, look}), stretch_limit());
+      // Where a sample was taken as well as where nothing was.
+      if (const auto reason = standstill_.reached(engine(), end_)) return stop_at_standstill(*reason);
+      if (!ends_by_time_ && moving_as_one_->reached(engine(), std::exchange(is_time_of_look_, false)))
+        return stop(StopReason::cooled);
+      std::uint64_t look = std::min({collisions, next_block_, standstill_.collisions_at_look()});
+      Instant stop_at = target;
+      if (!ends_by_time_) {
+        look = std::min(look, moving_as_one_->collisions_at_look());
+        stop_at = std::min(stop_at, moving_as_one_->time_of_look());
+      }
+      const bool arrived_there = run_stretch(stop_at, look, stretch_limit());
+      is_time_of_look_ = !ends_by_time_ && arrived_there && !(stop_at < moving_as_one_->time_of_look()) && stop_at < forever;
+      const bool arrived = arrived_there && !(stop_at < target);
       if (stands_ && !recording_) record_events(true);  // to be able to name the disks that collide without end
       const bool is_met = recording_ && take_events();
       hand_over_records();
@@ -358,8 +368,6 @@ class Schedule {
       if (engine().counts().pair >= collisions) return stop(StopReason::collisions);
       if (arrived && target < forever) return true;
       if (const auto reason = detail::why_stopped(engine(), effects_)) return stop(*reason);
-      if (const auto reason = standstill_.reached(engine(), end_)) return stop_at_standstill(*reason, target, collisions);
-      if (!ends_by_time_ && moving_as_one_->reached(engine())) return stop(StopReason::cooled);
       if (is_hopeless()) return stop(StopReason::no_collisions);
     }
   }
@@ -369,8 +377,7 @@ class Schedule {
     return std::min({hooks_.stop_when && measuring_ ? 1
                      : recording_                   ? recorded_events
                                                     : stretch_events,
-                     until_verified(), standstill_.events_until_look(engine().counts()),
-                     moving_as_one_->events_until_look(engine().counts())});
+                     until_verified(), standstill_.events_until_look(engine().counts())});
   }
 
   /// True when the engine stands at the target.
@@ -457,9 +464,10 @@ class Schedule {
 
   /// Stops a run whose clock all but stands still, after finding out which disks collide without end: as many further collisions
   /// of pairs whoever looks on.
-  bool stop_at_standstill(StopReason reason, const Instant& target, std::uint64_t collisions) {
+  bool stop_at_standstill(StopReason reason) {
+    if (reason == StopReason::overheated) return stop(reason);
     record_events(true);
-    run_stretch(target, std::min(collisions, engine().counts().pair + 1'000), 16'000);
+    run_stretch(std::min(end_.time, next_change()), std::min(end_.collisions, engine().counts().pair + 1'000), 16'000);
     stands_ = true;
     take_events();
     return stop(reason);
@@ -484,6 +492,7 @@ class Schedule {
   const Disks& disks_;
   detail::Standstill standstill_;
   std::optional<detail::MovingAsOne> moving_as_one_;  ///< there always; made anew where effects change
+  bool is_time_of_look_ = false;                      ///< of moving_as_one_
   detail::RunEnd end_;                                ///< of equilibrating, or of the measured run
   bool stands_ = false;                               ///< the clock, over a whole stretch
   std::vector<std::int32_t> standing_;                ///< ids of the disks that have collided since then

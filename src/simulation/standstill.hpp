@@ -39,8 +39,8 @@ class Standstill {
       : disks_(disks),
         smallest_(smallest),
         effects_(effects),
-        by_collisions_(500'000 + 50 * disks, 8'192 + 32 * disks),
-        by_all_(8 * (1'000'000 + 100 * disks), 8 * (16'384 + 64 * disks)) {
+        by_collisions_(500'000 + 50 * disks, 8'192 + 32 * disks, 5e11),
+        by_all_(1'000'000 + 100 * disks, 16'384 + 64 * disks, 1e12) {
     begin(engine);
   }
 
@@ -61,8 +61,8 @@ class Standstill {
 
   /// Why the run will not come to its end, or nothing, which it is wherever nothing is due.
   [[nodiscard]] std::optional<StopReason> reached(const AnyEngine& engine, const RunEnd& end) {
-    const auto reason = look(by_collisions_, engine, engine.counts().pair, end);
-    return reason ? reason : look(by_all_, engine, happenings(engine.counts()), end);
+    const auto reason = look(by_collisions_, engine, engine.counts().pair, 0.0, end);
+    return reason ? reason : look(by_all_, engine, happenings(engine.counts()), hardly, end);
   }
 
   template <class Archive>
@@ -80,7 +80,7 @@ class Standstill {
 
   /// A run as one of the two numbers grows.
   struct Course {
-    Course(std::uint64_t length, std::uint64_t first) : block_length(length), first_mark(first) {}
+    Course(std::uint64_t length, std::uint64_t first, double more) : block_length(length), first_mark(first), most(more) {}
 
     /// The number at which something is due, the same wherever the run began.
     [[nodiscard]] std::uint64_t next() const { return std::min(block_end, mark_at); }
@@ -98,6 +98,7 @@ class Standstill {
 
     std::uint64_t block_length;   ///< in which it is measured how far the fastest disk goes
     std::uint64_t first_mark;     ///< where the pace is measured for the first time; then at twice the number each time
+    double most;                  ///< with as many more or fewer a run is left to come to its end: in a week or two
     Point block;                  ///< where the block began
     std::uint64_t block_end = 0;  ///< number
     Point mark;                   ///< where the pace was last measured
@@ -114,19 +115,25 @@ class Standstill {
   /// grows as the time, to 0.71.
   static constexpr std::uint64_t quickened_marks = 6;
   static constexpr double quickened_pace = 2.0 / 3.0;
-  /// A run that would come to its end with fewer events is left to do so: in a week or two.
-  static constexpr double most_events = 1e12;
-
+  /// Where less than this share of all that happens are collisions of pairs, disks hardly meet.
+  static constexpr double hardly = 1.0 / 64.0;
   [[nodiscard]] bool grows() const { return detail::any_acting(effects_, &detail::EffectTraits::changes_radii); }
   [[nodiscard]] bool has_moving_walls() const {
     return std::ranges::any_of(effects_.walls, [](const WallProperties& wall) { return wall.velocity.value_or(0.0) != 0.0; });
   }
 
-  [[nodiscard]] std::optional<StopReason> look(Course& course, const AnyEngine& engine, std::uint64_t number, const RunEnd& end) {
+  /// Looks at what is due. `meeting`: with as large a share of collisions of pairs or more, the other course has to tell.
+  [[nodiscard]] std::optional<StopReason> look(Course& course, const AnyEngine& engine, std::uint64_t number, double meeting,
+                                               const RunEnd& end) const {
     const Point now{engine.now(), number, engine.counts().pair};
-    if (number >= course.block_end && creeps(course, engine, now))
+    const auto is_for_this = [&](const Point& before) {
+      return meeting == 0.0 ||
+             static_cast<double>(now.pairs - before.pairs) < meeting * static_cast<double>(now.number - before.number);
+    };
+    const Point block = course.block, mark = course.mark;
+    if (number >= course.block_end && creeps(course, engine, now) && is_for_this(block))
       return effects_.dissipate() ? StopReason::collapsed : StopReason::jammed;
-    if (number >= course.mark_at && converges(course, engine, now, end))
+    if (number >= course.mark_at && converges(course, engine, now, end) && is_for_this(mark))
       return effects_.dissipate()            ? StopReason::collapsed
              : grows() || has_moving_walls() ? StopReason::jammed
                                              : StopReason::overheated;
@@ -146,7 +153,7 @@ class Standstill {
     return way < of_one * least_way() * smallest_ * state.scale;
   }
 
-  /// Whether events follow each other ever faster, so that the run would need more than `most_events` to come to its end, if it
+  /// Whether events follow each other ever faster, so that the run would need more than Course::most to come to its end, if it
   /// ever does.
   [[nodiscard]] bool converges(Course& course, const AnyEngine& engine, const Point& now, const RunEnd& end) const {
     const Point before = std::exchange(course.mark, now);
@@ -165,7 +172,7 @@ class Standstill {
     const bool is_counted = end.collisions < RunEnd{}.collisions;
     const double by_collisions =
         is_counted ? (static_cast<double>(end.collisions) - static_cast<double>(now.pairs)) / pairs : never;
-    return std::min(by_time, by_collisions) > most_events;
+    return std::min(by_time, by_collisions) > course.most;
   }
 
   std::size_t disks_;

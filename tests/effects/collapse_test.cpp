@@ -10,6 +10,8 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace carom::test {
@@ -226,17 +228,44 @@ TEST(Cooling, OfDisksThatNeverMeetAgainEndsAtOnce) {
   }
 }
 
-TEST(Cooling, EndsAtTheSameEventOnSeveralCores) {
-  const Scene scene = cooling_gas(50, 0.5);
+TEST(Cooling, EndsAtTheSameEventOnSeveralCoresAndWhoeverLooksOn) {
+  Scene scene = cooling_gas(50, 0.5);
   State start = draw_start(scene).state;
   start.velocities.colwise() += V(0x1p14, -0x1p13);
-  Simulation alone = make_simulation(scene, start), shared = make_simulation(scene, start);
-  shared.set_threads({.domains = 2});
-  EXPECT_EQ(run_schedule(alone).stopped, StopReason::cooled);
-  EXPECT_EQ(run_schedule(shared).stopped, StopReason::cooled);
-  EXPECT_EQ(shared.counts().pair, alone.counts().pair);
-  EXPECT_EQ(state_hash(shared.state()), state_hash(alone.state()));
-  EXPECT_GT(shared.thread_counts().windows, 10U);
+  const auto end = [&](const Threads& threads, const RunHooks& hooks) {
+    Simulation simulation = make_simulation(scene, start);
+    simulation.set_threads(threads);
+    EXPECT_EQ(run_schedule(simulation, hooks).stopped, StopReason::cooled);
+    return std::tuple(simulation.counts().pair, simulation.time(), state_hash(simulation.state()));
+  };
+  RunHooks verifies;
+  verifies.verify_every = 1000;
+  const auto alone = end({}, {});
+  EXPECT_EQ(end({.domains = 2}, {}), alone);
+  EXPECT_EQ(end({}, verifies), alone);
+  scene.run.sample_every_collisions = 7;
+  EXPECT_EQ(end({}, {}), alone);
+  scene.run.sample_every_collisions = 1;
+  EXPECT_EQ(end({.domains = 3}, {}), alone);
+}
+
+/// Disks that keep their distances are found by their time of flight.
+TEST(Cooling, OfDisksWithOneVelocityEndsAtTheSameTimeHoweverItIsRun) {
+  Scene scene = cooling_gas(400, 0.5);
+  State start = draw_start(scene).state;
+  start.velocities.colwise() = V(0.5, 0.25);
+  const auto end = [&](const Threads& threads) {
+    Simulation simulation = make_simulation(scene, start);
+    simulation.set_threads(threads);
+    EXPECT_EQ(run_schedule(simulation).stopped, StopReason::cooled);
+    EXPECT_EQ(simulation.counts().pair, 0U);
+    return std::pair(simulation.time(), state_hash(simulation.state()));
+  };
+  const auto alone = end({});
+  EXPECT_EQ(end({.domains = 2}), alone);
+  scene.run.sample_every = 3.0;
+  EXPECT_EQ(end({}), alone);
+  EXPECT_EQ(end({.domains = 3}), alone);
 }
 
 TEST(Cooling, LeavesARunItsTimeHoweverDisksMoveTogether) {
@@ -250,6 +279,15 @@ TEST(Cooling, LeavesARunItsTimeHoweverDisksMoveTogether) {
     EXPECT_EQ(simulation.state().velocities.col(0), V(0.5, 0.25));
     EXPECT_EQ(simulation.state().velocities.col(1), V(0.5, 0.25));
   }
+}
+
+TEST(Cooling, LeavesARunItsTimeHoweverOftenDisksMeet) {
+  Scene scene = cooling_gas(16, 0.9);
+  scene.run.collisions.reset();
+  scene.run.time = 20.0;
+  Simulation simulation = make_simulation(scene);
+  EXPECT_EQ(run_schedule(simulation).stopped, StopReason::time);
+  EXPECT_GT(simulation.counts().pair, 64U);
 }
 
 TEST(Cooling, HappensBesideGravityThatDoesNotPull) {

@@ -739,6 +739,34 @@ TEST(Threads, TellTheCollisionsOfOneInstantInTheirOrder) {
   for (const std::size_t domains : {2U, 3U, 5U, 8U, 13U}) EXPECT_EQ(told_events(scene, {.domains = domains}), alone) << domains;
 }
 
+/// Disks of a lattice that meet many others at the same time and lose all of their speed towards each other.
+TEST(Threads, HandOnTheRecordsOfOneInstantInTheirOrder) {
+  Scene scene = lean_gas(144, 0.1, Boundary::walls);
+  scene.box = {{0.0, 0.0}, {12.0, 12.0}, {Boundary::walls, Boundary::walls}};
+  ListedPositions positions;
+  ListedVelocities velocities;
+  std::uint64_t draw = 1;
+  for (int k = 0; k < 144; ++k) {
+    draw = 6364136223846793005U * draw + 1442695040888963407U;
+    positions.values.emplace_back(0.5 + k / 12, 0.5 + k % 12);
+    velocities.values.emplace_back((draw >> 40) % 2 == 0 ? 0.5 : -0.5, (draw >> 50) % 2 == 0 ? 0.5 : -0.5);
+  }
+  Species& species = scene.species.front();
+  species.radius = 0.25;
+  species.positions = positions;
+  species.velocities = velocities;
+  scene.effects.collision.restitution = 0.0;
+  scene.run.time = 2.0;
+  scene.run.sample_every = 0.25;
+  std::uint64_t redone = 0;
+  const Told alone = told(scene, {}, redone);
+  for (const std::size_t domains : {2U, 3U, 5U}) {
+    const Told shared = told(scene, {.domains = domains}, redone);
+    EXPECT_EQ(shared.records, alone.records) << domains;
+    EXPECT_EQ(shared.events, alone.events) << domains;
+  }
+}
+
 /// Most disks of a lattice meet in pairs at the time at which all velocities are redrawn, and some of them meet again at once.
 TEST(Threads, TellCollisionsAndRedrawsOfOneInstantInTheirOrder) {
   Scene scene = lean_gas(400, 0.2, Boundary::walls);

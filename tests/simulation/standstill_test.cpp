@@ -8,7 +8,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <optional>
 #include <span>
+#include <sstream>
 #include <utility>
 
 namespace carom::test {
@@ -166,9 +169,37 @@ TEST(EnginesStandstill, EndsTheRunAtTheSameEventWhoeverLooksOn) {
   expect_same_end("three domains", {.domains = 3}, 0.5, may_be_stopped);
 }
 
+TEST(EnginesStandstill, IsKnownToASimulationThatWasSaved) {
+  const Scene scene = growing_lattice();
+  Simulation simulation = make_simulation(scene);
+  RunLimits limits;
+  limits.collisions = 900'000;  // in the block whose end is the end of the run
+  EXPECT_EQ(simulation.run_until(5.0, limits), StopReason::collisions);
+  std::stringstream saved;
+  simulation.save(saved);
+  Simulation restored = restore_simulation(scene, saved);
+  EXPECT_EQ(simulation.run_until(5.0), StopReason::jammed);
+  EXPECT_EQ(restored.run_until(5.0), StopReason::jammed);
+  EXPECT_EQ(restored.counts().pair, simulation.counts().pair);
+  EXPECT_EQ(state_hash(restored.state()), state_hash(simulation.state()));
+}
+
+TEST(EnginesStandstill, BetweenWallsThatCloseInIsTheSameOnSeveralCores) {
+  Scene scene = gas_scene(9, 0.15, Boundary::walls);
+  scene.species.front().positions = SquareLattice{};
+  scene.effects.walls[3].velocity = -0.5;
+  scene.run.collisions = 1'000'000'000'000'000;
+  Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+  shared.set_threads({.domains = 2});
+  EXPECT_EQ(run_schedule(alone).stopped, StopReason::jammed);
+  EXPECT_EQ(run_schedule(shared).stopped, StopReason::jammed);
+  EXPECT_EQ(shared.counts().pair, alone.counts().pair);
+  EXPECT_EQ(state_hash(shared.state()), state_hash(alone.state()));
+}
+
 /// A schedule goes on for a thousand collisions, to name the disks.
 TEST(EnginesStandstill, EndsAScheduleAtTheSameEventWhoeverLooksOn) {
-  const Scene scene = growing_lattice();
+  Scene scene = growing_lattice();
   const auto end = [&](const Threads& threads, const RunHooks& hooks) {
     Simulation simulation = make_simulation(scene);
     simulation.set_threads(threads);
@@ -185,6 +216,29 @@ TEST(EnginesStandstill, EndsAScheduleAtTheSameEventWhoeverLooksOn) {
   EXPECT_EQ(end({}, samples), alone);
   EXPECT_EQ(end({.domains = 2}, {}), alone);
   EXPECT_EQ(end({.domains = 3}, logs), alone);
+  scene.run.sample_every_collisions = 700;
+  EXPECT_EQ(end({}, {}), alone);
+}
+
+TEST(EnginesStandstill, OfAGasThatHeatsUpEndsAtTheSameEventWhoeverLooksOn) {
+  Scene scene = gas_scene(16, 0.4, Boundary::periodic);
+  scene.species.front().positions = HexagonalLattice{};
+  scene.effects.collision.rule = CollisionRule::reversal;
+  scene.effects.shear = Shear{.rate = 1.0};
+  scene.run.time = 1e9;
+  const auto end = [&](double every, std::optional<std::uint64_t> collisions) {
+    Scene sampled = scene;
+    sampled.run.sample_every_collisions = collisions;
+    Simulation simulation = make_simulation(sampled);
+    RunHooks hooks;
+    if (every > 0.0) hooks.grids.emplace_back().step = every;
+    EXPECT_EQ(run_schedule(simulation, hooks).stopped, StopReason::overheated);
+    return std::pair(simulation.counts().pair, state_hash(simulation.state()));
+  };
+  const auto alone = end(0.0, {});
+  EXPECT_EQ(end(2.04737, {}), alone);
+  EXPECT_EQ(end(0.0, 100), alone);
+  EXPECT_EQ(end(0.0, 1'000), alone);
 }
 
 TEST(EnginesStandstill, DisksThatJamAtOneInstantAreNamedAndNoOthers) {
