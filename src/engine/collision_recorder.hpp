@@ -101,7 +101,7 @@ class CollisionRecorder {
     logging_ = on;
     active_ = logging_ || listener_;
   }
-  /// How many events have been logged since take_events(), but for those that are recorded only.
+  /// The number of events in the log since take_events(). Collisions that are not handed over yet are not in it.
   [[nodiscard]] std::size_t logged() const { return log_.size(); }
   /// Puts the events logged since the last call in the place of what `events` held.
   void take_events(std::vector<Event>& events) {

@@ -552,11 +552,12 @@ template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::hand_over_records() {
   CollisionRecorder& recorder = whole_.recorder_;
   if (!recorder.active()) return;
-  /// The records of all domains: `here` gives those of one on this rank, and `made_before` how many there were before a redraw.
-  const auto lists_of = [this](auto&& here, const auto& elsewhere, auto made_before, auto&& is_at) {
+  /// The records of all domains: those of one on this rank are what `here` of it returns, and `made_before` how many there were
+  /// before a redraw.
+  const auto lists_of = [this](auto here, const auto& elsewhere, auto made_before, auto&& is_at) {
     std::vector<DomainRecords<typename std::remove_cvref_t<decltype(elsewhere[0])>::value_type>> lists(domains_.size());
     for (std::size_t d = 0; d < domains_.size(); ++d) {
-      lists[d].records = is_here(d) ? &here(*domains_[d]) : &elsewhere[d];
+      lists[d].records = is_here(d) ? &(*domains_[d].*here)() : &elsewhere[d];
       for (const RecordsBeforeRedraw& redraw : is_here(d) ? domains_[d]->redraws() : redraws_elsewhere_[d])
         lists[d].note(redraw.number, redraw.*made_before, [&](const auto& record) { return is_at(record, redraw.time); });
     }
@@ -564,12 +565,11 @@ void Domains<Impact, Layout, World>::hand_over_records() {
   };
   if (recorder.logging()) {
     const auto time = [](const Event& event) { return Instant{event.time, event.time_remainder}; };
-    const auto lists = lists_of([](Part& domain) -> const std::vector<Event>& { return domain.logged(); }, events_elsewhere_,
-                                &RecordsBeforeRedraw::events,
-                                [&](const Event& event, double redraw) {
-                                  const Instant at = whole_.epoch_.plus(redraw);
-                                  return event.time == at.high && event.time_remainder == at.low;
-                                });
+    const auto lists =
+        lists_of(&Part::logged, events_elsewhere_, &RecordsBeforeRedraw::events, [&](const Event& event, double redraw) {
+          const Instant at = whole_.epoch_.plus(redraw);
+          return event.time == at.high && event.time_remainder == at.low;
+        });
     merge_records<Event>(
         lists, [&](const Event& a, const Event& b) { return time(a) < time(b); },
         [](const Event& a, const Event& b) { return std::tie(a.disk, a.partner) < std::tie(b.disk, b.partner); },
@@ -582,8 +582,7 @@ void Domains<Impact, Layout, World>::hand_over_records() {
       const std::int32_t i = whole_.id(record.slot_i), j = whole_.id(record.slot_j);
       return std::pair(std::min(i, j), std::max(i, j));
     };
-    const auto lists = lists_of([](Part& domain) -> const std::vector<CollisionRecord>& { return domain.collisions(); },
-                                collisions_elsewhere_, &RecordsBeforeRedraw::collisions,
+    const auto lists = lists_of(&Part::collisions, collisions_elsewhere_, &RecordsBeforeRedraw::collisions,
                                 [](const CollisionRecord& record, double redraw) { return record.time == redraw; });
     merge_records<CollisionRecord>(
         lists, [](const CollisionRecord& a, const CollisionRecord& b) { return a.time < b.time; },

@@ -58,10 +58,11 @@ struct DomainRecords {
   /// order of redraws.
   template <class IsThen>
   void note(std::uint64_t number, std::uint64_t before, IsThen&& is_then) {
-    for (std::size_t k = before; k < size() && is_then((*records)[k]); ++k) {
-      redraws.resize(size());
-      redraws[k] = number;
-    }
+    std::size_t end = before;
+    while (end < size() && is_then((*records)[end])) ++end;
+    if (end == before) return;
+    redraws.resize(size());
+    std::fill(redraws.begin() + static_cast<std::ptrdiff_t>(before), redraws.begin() + static_cast<std::ptrdiff_t>(end), number);
   }
 };
 

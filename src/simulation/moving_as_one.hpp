@@ -11,7 +11,6 @@
 
 #include <Eigen/Core>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -22,11 +21,12 @@ namespace carom::detail {
 
 class MovingAsOne {
  public:
-  /// The run begins, or goes on, where `engine` is.
-  MovingAsOne(const AnyEngine& engine, const Scene& scene, const Disks& disks)
+  /// The run begins, or goes on, where `engine` is. It is looked at after every so many collisions of pairs, at which it stops
+  /// anyway: `block`.
+  MovingAsOne(const AnyEngine& engine, const Scene& scene, const Disks& disks, std::uint64_t block)
       : disks_(disks),
         sides_(scene.box.lengths().sum()),
-        window_(std::max<std::uint64_t>(16, disks.count() / 2)),
+        window_(block),
         next_collisions_(following(engine.counts().pair)),
         events_then_(all_events(engine.counts())),
         pairs_then_(engine.counts().pair) {

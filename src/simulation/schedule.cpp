@@ -65,7 +65,7 @@ class Schedule {
         block_collisions_(std::max<std::uint64_t>(16, disks.count() / 2)),
         disks_(disks),
         standstill_(*engine, disks.count(), smallest_radius, effects_),
-        moving_as_one_(std::in_place, *engine, scene, disks) {}
+        moving_as_one_(std::in_place, *engine, scene, disks, block_collisions_) {}
   Schedule(const Schedule&) = delete;
   Schedule& operator=(const Schedule&) = delete;
   ~Schedule() { engine().listen({}); }
@@ -124,7 +124,7 @@ class Schedule {
     if (!advance(until, collisions) && result_.stopped != StopReason::collisions) return false;
     engine().reset_clock();
     standstill_.begin(engine());
-    moving_as_one_.emplace(engine(), scene_, disks_);
+    moving_as_one_.emplace(engine(), scene_, disks_, block_collisions_);
     equilibrating_ = false;
     const std::uint64_t verified = result_.verified;
     result_ = {};
@@ -328,7 +328,7 @@ class Schedule {
     }
     engine().record_events(recording_);
     listen();
-    moving_as_one_.emplace(engine(), scene_, disks_);
+    moving_as_one_.emplace(engine(), scene_, disks_, block_collisions_);
     without_collision_ = 0;
     if (hooks_.change) hooks_.change(true);
     return true;
@@ -342,17 +342,17 @@ class Schedule {
         if (!hooks_.proceed(progress())) return stop(StopReason::interrupted);
       }
       if (hooks_.checkpoint) hooks_.checkpoint(saving_moment(false));
-      // Where a sample was taken as well as where nothing was.
+      // Here, and not where a stretch ends: a look that falls on a sample comes after it.
       if (const auto reason = standstill_.reached(engine(), end_)) return stop_at_standstill(*reason);
       if (!ends_by_time_ && moving_as_one_->reached(engine(), std::exchange(is_time_of_look_, false)))
         return stop(StopReason::cooled);
-      std::uint64_t look = std::min({collisions, next_block_, standstill_.collisions_at_look()});
+      std::uint64_t pair_limit = std::min({collisions, next_block_, standstill_.collisions_at_look()});
       Instant stop_at = target;
       if (!ends_by_time_) {
-        look = std::min(look, moving_as_one_->collisions_at_look());
+        pair_limit = std::min(pair_limit, moving_as_one_->collisions_at_look());
         stop_at = std::min(stop_at, moving_as_one_->time_of_look());
       }
-      const bool arrived_there = run_stretch(stop_at, look, stretch_limit());
+      const bool arrived_there = run_stretch(stop_at, pair_limit, stretch_limit());
       is_time_of_look_ = !ends_by_time_ && arrived_there && !(stop_at < moving_as_one_->time_of_look()) && stop_at < forever;
       const bool arrived = arrived_there && !(stop_at < target);
       if (stands_ && !recording_) record_events(true);  // to be able to name the disks that collide without end

@@ -4,8 +4,8 @@
 // may follow each other ever faster, so that the clock converges to a time before the end of the run.
 //
 // Such a run has to end at the same event on any number of cores, whoever looks on. So it is looked at where numbers of
-// collisions of pairs are reached, which every engine stops at exactly; and, eight times as rarely, at numbers of all that
-// happens, for disks that meet walls alone. There several cores may stop some events later.
+// collisions of pairs are reached, which every engine stops at exactly. Numbers of all that happens decide where hardly any of it
+// is such a collision, because disks meet walls. There several cores may stop some events later.
 
 #include "core/all_events.hpp"
 #include "core/instant.hpp"
@@ -39,8 +39,9 @@ class Standstill {
       : disks_(disks),
         smallest_(smallest),
         effects_(effects),
-        by_collisions_(500'000 + 50 * disks, 8'192 + 32 * disks, 5e11),
-        by_all_(1'000'000 + 100 * disks, 16'384 + 64 * disks, 1e12) {
+        by_collisions_({.block_length = 500'000 + 50 * disks, .first_mark = 8'192 + 32 * disks, .most = 5e11}),
+        by_all_(
+            {.block_length = 1'000'000 + 100 * disks, .first_mark = 16'384 + 64 * disks, .most = 1e12, .meeting = 1.0 / 64.0}) {
     begin(engine);
   }
 
@@ -61,8 +62,8 @@ class Standstill {
 
   /// Why the run will not come to its end, or nothing, which it is wherever nothing is due.
   [[nodiscard]] std::optional<StopReason> reached(const AnyEngine& engine, const RunEnd& end) {
-    const auto reason = look(by_collisions_, engine, engine.counts().pair, 0.0, end);
-    return reason ? reason : look(by_all_, engine, happenings(engine.counts()), hardly, end);
+    const auto reason = look(by_collisions_, engine, engine.counts().pair, end);
+    return reason ? reason : look(by_all_, engine, happenings(engine.counts()), end);
   }
 
   template <class Archive>
@@ -80,13 +81,16 @@ class Standstill {
 
   /// A run as one of the two numbers grows.
   struct Course {
-    Course(std::uint64_t length, std::uint64_t first, double more) : block_length(length), first_mark(first), most(more) {}
-
     /// The number at which something is due, the same wherever the run began.
     [[nodiscard]] std::uint64_t next() const { return std::min(block_end, mark_at); }
+    [[nodiscard]] std::uint64_t end_of_block_at(std::uint64_t number) const { return (number / block_length + 1) * block_length; }
+    /// Whether this number tells of what has happened since, and not the other one.
+    [[nodiscard]] bool tells(const Point& since, const Point& now) const {
+      return static_cast<double>(now.pairs - since.pairs) < meeting * static_cast<double>(now.number - since.number);
+    }
     void begin(const Point& now) {
       block = mark = now;
-      block_end = (now.number / block_length + 1) * block_length;
+      block_end = end_of_block_at(now.number);
       for (mark_at = first_mark; mark_at <= now.number;) mark_at *= 2;
       pace = 0.0;
       quickened = 0;
@@ -96,15 +100,16 @@ class Standstill {
       archive(block, block_end, mark, mark_at, pace, quickened);
     }
 
-    std::uint64_t block_length;   ///< in which it is measured how far the fastest disk goes
-    std::uint64_t first_mark;     ///< where the pace is measured for the first time; then at twice the number each time
-    double most;                  ///< with as many more or fewer a run is left to come to its end: in a week or two
-    Point block;                  ///< where the block began
-    std::uint64_t block_end = 0;  ///< number
-    Point mark;                   ///< where the pace was last measured
-    std::uint64_t mark_at = 0;    ///< number at which it will be
-    double pace = 0.0;            ///< time for each one of the number, before the mark
-    std::uint64_t quickened = 0;  ///< how many times more often it had fallen than not
+    std::uint64_t block_length;  ///< in which it is measured how far the fastest disk goes
+    std::uint64_t first_mark;    ///< where the pace is measured for the first time; then at twice the number each time
+    double most;                 ///< with as many more or fewer a run is left to come to its end: in a week or two
+    double meeting = std::numeric_limits<double>::infinity();  ///< share of collisions of pairs below which the number tells
+    Point block{};                                             ///< where the block began
+    std::uint64_t block_end = 0;                               ///< number
+    Point mark{};                                              ///< where the pace was last measured
+    std::uint64_t mark_at = 0;                                 ///< number at which it will be
+    double pace = 0.0;                                         ///< time for each one of the number, before the mark
+    std::uint64_t quickened = 0;                               ///< how many times more often it had fallen than not
   };
 
   /// By how much of the smallest radius even the fastest disk must get on from one of its events to the next: what coordinates
@@ -115,25 +120,21 @@ class Standstill {
   /// grows as the time, to 0.71.
   static constexpr std::uint64_t quickened_marks = 6;
   static constexpr double quickened_pace = 2.0 / 3.0;
-  /// Where less than this share of all that happens are collisions of pairs, disks hardly meet.
-  static constexpr double hardly = 1.0 / 64.0;
+
   [[nodiscard]] bool grows() const { return detail::any_acting(effects_, &detail::EffectTraits::changes_radii); }
   [[nodiscard]] bool has_moving_walls() const {
     return std::ranges::any_of(effects_.walls, [](const WallProperties& wall) { return wall.velocity.value_or(0.0) != 0.0; });
   }
 
-  /// Looks at what is due. `meeting`: with as large a share of collisions of pairs or more, the other course has to tell.
-  [[nodiscard]] std::optional<StopReason> look(Course& course, const AnyEngine& engine, std::uint64_t number, double meeting,
+  /// Looks at what is due.
+  [[nodiscard]] std::optional<StopReason> look(Course& course, const AnyEngine& engine, std::uint64_t number,
                                                const RunEnd& end) const {
+    if (number < course.next()) return std::nullopt;
     const Point now{engine.now(), number, engine.counts().pair};
-    const auto is_for_this = [&](const Point& before) {
-      return meeting == 0.0 ||
-             static_cast<double>(now.pairs - before.pairs) < meeting * static_cast<double>(now.number - before.number);
-    };
     const Point block = course.block, mark = course.mark;
-    if (number >= course.block_end && creeps(course, engine, now) && is_for_this(block))
+    if (number >= course.block_end && creeps(course, engine, now) && course.tells(block, now))
       return effects_.dissipate() ? StopReason::collapsed : StopReason::jammed;
-    if (number >= course.mark_at && converges(course, engine, now, end) && is_for_this(mark))
+    if (number >= course.mark_at && converges(course, engine, now, end) && course.tells(mark, now))
       return effects_.dissipate()            ? StopReason::collapsed
              : grows() || has_moving_walls() ? StopReason::jammed
                                              : StopReason::overheated;
@@ -144,7 +145,7 @@ class Standstill {
   [[nodiscard]] bool creeps(Course& course, const AnyEngine& engine, const Point& now) const {
     const std::uint64_t done = now.number - course.block.number;
     const Instant began = std::exchange(course.block, now).time;
-    course.block_end = (now.number / course.block_length + 1) * course.block_length;
+    course.block_end = course.end_of_block_at(now.number);
     if (done < course.block_length) return false;
     const State state = engine.state();
     const double fastest = state.velocities.size() > 0 ? state.velocities.cwiseAbs().maxCoeff() : 0.0;
