@@ -49,6 +49,27 @@ Masses masses_of(const Scene& scene) {
   return masses;
 }
 
+bool keeps_set_of_speeds(const Effects& effects) {
+  return effects.collision.rule == CollisionRule::reversal && !temperature_fluctuates(effects) &&
+         why_no_Z(effects, &detail::EffectTraits::keeps_speeds).empty();
+}
+
+/// Whether all acting effects have a trait.
+bool all_acting(const Effects& effects, bool detail::EffectTraits::*trait) {
+  return std::ranges::all_of(detail::all_effects(),
+                             [&](const detail::EffectTraits& effect) { return effect.*trait || !effect.acts(effects); });
+}
+
+bool keeps_turning(const Scene& scene) {
+  return scene.box.is_circle && scene.effects.collision.rule == CollisionRule::specular &&
+         all_acting(scene.effects, &detail::EffectTraits::conserves_angular_momentum);
+}
+
+bool keeps_energy_of_positions(const Effects& effects) {
+  return detail::any_acting(effects, &detail::EffectTraits::has_potential_energy) &&
+         all_acting(effects, &detail::EffectTraits::conserves_energy);
+}
+
 }  // namespace
 
 std::string_view why_no_Z(const Effects& effects, bool detail::EffectTraits::*passed_over) {
@@ -73,22 +94,15 @@ std::string_view why_errors_are_of_one_start(const Scene& scene) {
   if (scene.packing_fraction() > densest_fluid && !detail::radii_of(scene).equal())
     return "so dense a mixture rearranges slowly: unless the run is many relaxation times long, another start may differ by more "
            "than the errors";
-  if (effects.collision.rule != CollisionRule::reversal || temperature_fluctuates(effects) ||
-      !why_no_Z(effects, &detail::EffectTraits::keeps_speeds).empty())
-    return {};
-  if (const Masses masses = masses_of(scene); masses.least != masses.most) return {};
-  return "under reversal, disks of equal mass only exchange velocities: another start may differ by more than the errors";
-}
-
-std::string_view why_displacements_are_of_one_start(const Scene& scene) {
-  const auto keeps_turning = [&](const detail::EffectTraits& effect) {
-    return effect.conserves_angular_momentum || !effect.acts(scene.effects);
-  };
-  if (!scene.box.is_circle || scene.disk_count() < 2 || scene.effects.collision.rule != CollisionRule::specular ||
-      !std::ranges::all_of(detail::all_effects(), keeps_turning))
-    return {};
-  return "in a circular box all disks together keep turning as they did at the start: another start may differ by more than the "
-         "errors";
+  if (const Masses masses = masses_of(scene); masses.least == masses.most && keeps_set_of_speeds(effects))
+    return "under reversal, disks of equal mass only exchange velocities: another start may differ by more than the errors";
+  if (scene.disk_count() > 1 && keeps_turning(scene))
+    return "in a circular box all disks together keep turning as they did at the start: another start may differ by more than "
+           "the errors";
+  if (keeps_energy_of_positions(effects))
+    return "energy is conserved, and how much there is depends also on where the disks of the start are: kT of another start may "
+           "differ by more than the errors, and what depends on it";
+  return {};
 }
 
 bool is_crystal(const Scene& scene) { return scene.packing_fraction() > densest_fluid && detail::radii_of(scene).equal(); }

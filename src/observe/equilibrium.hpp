@@ -25,13 +25,10 @@ namespace carom {
 [[nodiscard]] bool temperature_fluctuates(const Effects& effects);
 
 /// Returns the reason why errors of one run do not cover the scatter between starts, as a sentence without its stop; empty where
-/// they do. Reversal of equal masses never changes the set of speeds, and a mixture beyond a packing fraction of 0.72 keeps its
-/// arrangement for long.
+/// they do. A mixture beyond a packing fraction of 0.72 keeps its arrangement for long. Reversal of equal masses never changes
+/// the set of speeds. In a circular box all disks together keep turning as they did at the start. Where energy is conserved and
+/// is stored otherwise than in motion too, it depends on where the disks of the start are, and kT with it.
 [[nodiscard]] std::string_view why_errors_are_of_one_start(const Scene& scene);
-
-/// Returns why errors of displacements and of the autocorrelation of velocities do not cover that scatter, as such a sentence,
-/// where all disks together keep turning as they did at the start; empty where they do not.
-[[nodiscard]] std::string_view why_displacements_are_of_one_start(const Scene& scene);
 
 /// Returns the reason why errors are lower bounds, as a sentence without its stop; empty where the run lasts 32 times as long as
 /// its slowest motion. The summary's Z has 32 blocks or more. The slowest motion, in collisions of a disk, lasts for:

@@ -77,15 +77,13 @@ class MeanSquareDisplacement final : public SavedObservable<MeanSquareDisplaceme
     const auto add_note = [&](std::string_view sentence) {
       found.note += (found.note.empty() ? "" : "; ") + std::string(sentence);
     };
-    const std::string_view of_one_start = why_displacements_are_of_one_start(run_.scene);
-    if (!of_one_start.empty())
-      add_note(of_one_start);
-    else if (!run_.scene.box.periodic(0) || !run_.scene.box.periodic(1))
+    const bool cover_starts = why_errors_are_of_one_start(run_.scene).empty();
+    if (cover_starts && !(run_.scene.box.periodic(0) && run_.scene.box.periodic(1)))
       add_note("between walls errors at long lags are up to 1.3 times too large");
     for (int axis = 0; axis < 2; ++axis)
       if (run_.drifts_along(axis) && !run_.scene.box.periodic(1 - axis))
         add_note("disks drift with a flow that differs from place to place: only its mean is taken out");
-    if (of_one_start.empty() && run_.disks.count() < few) add_note("errors of so few disks are up to 1.4 times too large");
+    if (cover_starts && run_.disks.count() < few) add_note("errors of so few disks are up to 1.4 times too large");
     put_table(found, std::move(table));
     return found;
   }

@@ -6,7 +6,6 @@
 // correlation falls at the rate sum over collisions of |change of v|^2 / 2, over <v^2> N t.
 
 #include "observe/blocking.hpp"
-#include "observe/equilibrium.hpp"
 #include "observe/multiple_tau.hpp"
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"
@@ -85,8 +84,6 @@ class VelocityAutocorrelation final : public SavedObservable<VelocityAutocorrela
       all.insert(all.end(), means.begin(), means.end());
     }
     found.note = MultipleTau::note_on_errors(all);
-    if (const std::string_view why = why_displacements_are_of_one_start(run_.scene); !why.empty())
-      found.note += (found.note.empty() ? "" : "; ") + std::string(why);
     put_table(found, std::move(table));
     return found;
   }

@@ -47,12 +47,14 @@ double area_by_strips(const Rectangle& rectangle, const Eigen::Vector2d& centre,
   return sum;
 }
 
-TEST(DisplacementsInACircle, SayThatTheGasKeepsTurning) {
-  const std::string displacements = "mean_square_displacement = { every = 0.1 }\nvelocity_autocorrelation = { every = 0.1 }";
+TEST(GasInACircle, EveryObservableSaysThatItKeepsTurning) {
+  const std::string all =
+      "mean_square_displacement = { every = 0.1 }\nvelocity_autocorrelation = { every = 0.1 }\n"
+      "fields = { cells = [2, 2], every = 0.1 }\noverlap = { every = 0.1 }\npressure = { every = 0.1 }";
   for (const char* more : {"", "[thermostat]\ntemperature = 1.0\nrate = 0.5\n"}) {
-    const Observed o = observe(gas_in_a_circle(displacements, more), 0.1);
+    const Observed o = observe(gas_in_a_circle(all, more), 0.1);
     const bool keeps_turning = std::string(more).find("thermostat") == std::string::npos;
-    for (const char* name : {"mean_square_displacement", "velocity_autocorrelation"})
+    for (const char* name : {"mean_square_displacement", "velocity_autocorrelation", "fields", "overlap", "pressure"})
       EXPECT_EQ(o.of(name).note.find("all disks together keep turning") != std::string::npos, keeps_turning) << name << more;
     EXPECT_EQ(o.of("mean_square_displacement").note.find("too large") != std::string::npos, !keeps_turning) << more;
   }

@@ -217,6 +217,11 @@ TEST(RunMeasurements, SaysWhatTheErrorOfZIsWorth) {
   EXPECT_THAT(note(mixture), testing::HasSubstr("light and heavy disks exchange energy too slowly"));
   EXPECT_THAT(note(gas_scene(36, 0.73, Boundary::periodic)), testing::HasSubstr("the error of Z is up to 3 times too large"));
   EXPECT_THAT(note(gas_scene(36, 0.71, Boundary::periodic)), testing::Not(testing::HasSubstr("too large")));
+  Scene falling = gas_scene(36, 0.3, Boundary::walls);
+  falling.effects.gravity = Gravity{.acceleration = {0.0, -0.5}};
+  EXPECT_THAT(note(falling), testing::HasSubstr("kT of another start may differ by more than the errors"));
+  falling.effects.thermostat = Thermostat{.temperature = 1.0, .rate = 0.5};
+  EXPECT_EQ(note(falling), "");
 }
 
 }  // namespace
