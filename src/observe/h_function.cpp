@@ -2,9 +2,11 @@
 // has its own f; H is their mean over disks.
 //
 // f is a histogram in v_x and v_y with bins half a thermal velocity wide. The plug-in estimate is too high by (occupied bins - 1)
-// / 2 N, which is taken away (Miller 1955); its standard error is that of a mean of ln f over N disks. At most 1024 instants are
-// kept: when they are full every other one goes and the steps are twice as long.
+// / 2 N, which is taken away (Miller 1955); its standard error is that of a mean of ln f over N disks. What is left of the bias
+// is in the number to compare it with, h_of_maxwell(). At most 1024 instants are kept: when they are full every other one goes
+// and the steps are twice as long.
 
+#include "observe/h_of_maxwell.hpp"
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"
 #include "observe/thinned_rows.hpp"
@@ -44,13 +46,13 @@ class HFunction final : public SavedObservable<HFunction> {
       counts[s][bin(v(1, static_cast<Eigen::Index>(i)), s) * side + bin(v(0, static_cast<Eigen::Index>(i)), s)] += 1.0;
       disks[s] += 1.0;
       const double fastest = v.col(static_cast<Eigen::Index>(i)).cwiseAbs().maxCoeff();
-      beyond_ = beyond_ || fastest > 0.25 * static_cast<double>(side) * thermal_[s];
+      beyond_ = beyond_ || fastest > 0.5 * static_cast<double>(side) * h_bin * thermal_[s];
     }
     double h = 0.0, variance = 0.0;
     const double all = static_cast<double>(run_.disks.count());
     for (std::size_t s = 0; s < kinds; ++s) {
       if (disks[s] == 0.0) continue;
-      const double cell = 0.25 * thermal_[s] * thermal_[s];
+      const double cell = h_bin * h_bin * thermal_[s] * thermal_[s];
       double mean = 0.0, square = 0.0, occupied = 0.0;
       for (const double count : counts[s]) {
         if (count == 0.0) continue;
@@ -72,17 +74,24 @@ class HFunction final : public SavedObservable<HFunction> {
     found.tables.push_back(
         {.name = name(),
          .columns = {{"time", "time", rows_.times()}, {"H", "", rows_.column(0)}, {"H_error", "", rows_.column(1)}}});
-    Scalar maxwell{.name = "maxwell", .note = "of Maxwell's distribution at the temperature of the start"};
+    Scalar exact{.name = "maxwell", .note = "of Maxwell's distribution at the temperature of the start"};
+    Scalar expected{.name = "maxwell_expected",
+                    .note = "what H is on average in these bins, for as many velocities drawn from that distribution"};
     if (run_.temperature > 0.0) {
-      double h = 0.0;
-      for (std::size_t s = 0; s < thermal_.size(); ++s)
-        h -= static_cast<double>(run_.scene.species[s].count) / static_cast<double>(run_.disks.count()) *
-             (1.0 + std::log(2.0 * std::numbers::pi * thermal_[s] * thermal_[s]));
-      maxwell.value = h;
+      exact.value = expected.value = 0.0;
+      for (std::size_t s = 0; s < thermal_.size(); ++s) {
+        const std::int64_t count = run_.scene.species[s].count;
+        if (count == 0) continue;
+        const double share = static_cast<double>(count) / static_cast<double>(run_.disks.count());
+        const double thermal_area = std::log(thermal_[s] * thermal_[s]);
+        *exact.value -= share * (1.0 + std::log(2.0 * std::numbers::pi) + thermal_area);
+        *expected.value += share * (h_of_maxwell(count) - thermal_area);
+      }
     } else {
-      maxwell.note = "nothing moves at the start";
+      exact.note = expected.note = "nothing moves at the start";
     }
-    found.scalars.push_back(std::move(maxwell));
+    found.scalars.push_back(std::move(exact));
+    found.scalars.push_back(std::move(expected));
     return found;
   }
 
@@ -96,7 +105,7 @@ class HFunction final : public SavedObservable<HFunction> {
       64;  ///< bins per component, 16 thermal velocities to either side; what is beyond is in the last
 
   [[nodiscard]] std::size_t bin(double v, std::size_t s) const {
-    const double at = std::floor(v / (0.5 * thermal_[s])) + 0.5 * static_cast<double>(side);
+    const double at = std::floor(v / (h_bin * thermal_[s])) + 0.5 * static_cast<double>(side);
     return static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(side - 1)));
   }
 

@@ -261,8 +261,8 @@ std::vector<TheoryMark> RunTheory::marks(const Table& table, const std::string& 
   if (table.name == "h_function") {
     for (const Measurement& measured : report_.observables)
       for (const Scalar& scalar : measured.scalars)
-        if (measured.name == "h_function" && scalar.name == "maxwell" && scalar.value)
-          return {{.value = *scalar.value, .label = "Maxwell"}};
+        if (measured.name == "h_function" && scalar.name == "maxwell_expected" && scalar.value)
+          return {{.value = *scalar.value, .label = "Maxwell, as many disks in these bins"}};
     return {};
   }
   if (table.name == "radial_distribution" && is_plain_) return {{.on_first_column = true, .value = sigma_, .label = "contact"}};

@@ -4,6 +4,7 @@
 #include "studies/validate/gas.hpp"
 #include "studies/validate/speed_law.hpp"
 
+#include "observe/h_of_maxwell.hpp"
 #include "theory/goodness_of_fit.hpp"
 
 #include <fmt/format.h>
@@ -75,31 +76,6 @@ TrialResult relax(const std::string& trial, const std::string& boundary, bool al
   return result;
 }
 
-/// Returns the expected result of the observable H for a number of velocities from Maxwell's distribution. In bins half a thermal
-/// velocity wide those at the edge hold less than one disk, for which Miller's correction is not enough: the result is the mean
-/// over the number of disks in each bin, which is binomial.
-double expected_h(double number) {
-  std::vector<double> axis;
-  for (int k = -16; k < 16; ++k)
-    axis.push_back(0.5 * (std::erf((k + 1) * 0.5 / std::numbers::sqrt2) - std::erf(k * 0.5 / std::numbers::sqrt2)));
-  constexpr double cell = 0.25;
-  double h = 0.0, occupied = 0.0;
-  for (const double x : axis)
-    for (const double y : axis) {
-      const double p = x * y;
-      if (p < 1e-15) continue;
-      double chance = std::exp(number * std::log1p(-p));  // that the bin is empty
-      occupied += 1.0 - chance;
-      for (double count = 1.0; count <= number; count += 1.0) {
-        chance *= (number - count + 1.0) / count * p / (1.0 - p);
-        const double share = count / number;
-        h += chance * share * std::log(share / cell);
-        if (count > number * p && chance < 1e-18) break;
-      }
-    }
-  return h - (occupied - 1.0) / (2.0 * number);
-}
-
 TrialResult h_theorem(const std::string& trial, const Effort& effort) {
   TrialResult result{.trial = trial};
   constexpr std::int64_t many = 1000;
@@ -142,7 +118,7 @@ TrialResult h_theorem(const std::string& trial, const Effort& effort) {
   }
   result.curves.push_back(curve);
   // Three sums over all disks, energy and momentum, do not fluctuate, so they add nothing to the bias of the estimate.
-  const double maxwell = expected_h(many) - std::log(mean_energy) - 1.5 / static_cast<double>(many);
+  const double maxwell = h_of_maxwell(many) - std::log(mean_energy) - 1.5 / static_cast<double>(many);
   result.curves.push_back({.plot = "h-theorem",
                            .name = "Maxwell's distribution",
                            .theory = true,
