@@ -288,7 +288,6 @@ std::vector<EffectTraits> make_table() {
        .changes_velocities_in_flight = true,
        .draws_random_numbers = true,
        .bytes_per_disk = 20,
-       .why_no_Z = "tumbles keep the disks out of equilibrium",
        .why_no_replay = "tumbles change velocities between collisions, which the event log does not hold"},
       {.name = "brownian",
        .title = "[brownian]",

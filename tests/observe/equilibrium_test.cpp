@@ -37,6 +37,12 @@ TEST(Equilibrium, EveryEffectAtItsNeutralValueKeepsZ) {
   EXPECT_FALSE(temperature_fluctuates(neutral));
 }
 
+TEST(Equilibrium, TumblesThatKeepAllSpeedsKeepZ) {
+  const Effects effects = with([](Effects& e) { e.tumbling = Tumbling{.rate = 1.0}; });
+  EXPECT_THAT(why_no_Z(effects), IsEmpty());
+  EXPECT_FALSE(temperature_fluctuates(effects));
+}
+
 TEST(Equilibrium, ABathSpinsAndWellsKeepZAndLetTheTemperatureFluctuate) {
   for (const Effects& effects : {with([](Effects& e) { e.thermostat = Thermostat{.temperature = 2.0, .rate = 0.1}; }),
                                  with([](Effects& e) { e.walls[0].temperature = e.walls[3].temperature = 2.0; }),

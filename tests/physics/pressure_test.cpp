@@ -9,9 +9,10 @@
 namespace carom::test {
 namespace {
 
-void expect_pressure(double packing_fraction, CollisionRule rule) {
+void expect_pressure(double packing_fraction, CollisionRule rule, double tumbles = 0.0) {
   Scene scene = gas_scene(256, packing_fraction, Boundary::periodic);
   scene.effects.collision.rule = rule;
+  scene.effects.tumbling = Tumbling{.rate = tumbles};
   scene.run.equilibrate = Run::Equilibrate{100.0, {}};
   scene.run.collisions = 2'000'000;
   Simulation simulation = make_simulation(scene);
@@ -30,6 +31,8 @@ void expect_pressure(double packing_fraction, CollisionRule rule) {
 }
 
 TEST(PhysicsPressure, SpecularGasAtPackingFraction03) { expect_pressure(0.3, CollisionRule::specular); }
+// Tumbles leave all states of one energy as likely as they were.
+TEST(PhysicsPressure, TumblingGasAtPackingFraction03) { expect_pressure(0.3, CollisionRule::specular, 1.0); }
 TEST(PhysicsPressure, SpecularGasAtPackingFraction06) { expect_pressure(0.6, CollisionRule::specular); }
 TEST(PhysicsPressure, ReversalGasAtPackingFraction03) { expect_pressure(0.3, CollisionRule::reversal); }
 TEST(PhysicsPressure, ReversalGasAtPackingFraction06) { expect_pressure(0.6, CollisionRule::reversal); }
