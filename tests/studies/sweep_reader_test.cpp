@@ -212,6 +212,29 @@ TEST_F(SweepReader, ATableHasFunctionsOfALagAtALag) {
   EXPECT_THAT(at("overlap.overlap@lag"), HasSubstr("behind @ there is to be a value of lag"));
 }
 
+TEST_F(SweepReader, AValueAtWhichNoTableHasARowIsRefused) {
+  const auto at = [&](const std::string& name) {
+    return files_.refusal(scene_line + "table = [\"observables." + name + "\"]\n[set]\nrun.time = 4.0\n" +
+                          "box.x = [0.0, 10.0]\nobserve = { mean_square_displacement = true, overlap = true, voronoi = true, "
+                          "radial_distribution = { range = 3.0, bins = 30 }, structure_factor = true, h_function = true, "
+                          "velocity_autocorrelation = true, density_profile = { axis = \"x\", bins = 5 } }\n");
+  };
+  for (const char* right :
+       {"radial_distribution.g@0.05", "radial_distribution.g@1.75", "density_profile.density@1", "density_profile.density@9",
+        "voronoi_neighbours.fraction@6", "h_function.H@0", "velocity_autocorrelation.correlation@0", "structure_factor.S@2"})
+    EXPECT_EQ(at(right), "") << right;
+  for (const char* lag : {"mean_square_displacement.msd@-1", "mean_square_displacement.msd@0", "overlap.overlap@-0.1"})
+    EXPECT_THAT(at(lag), HasSubstr("no run has a row there; the table begins at a larger lag")) << lag;
+  EXPECT_THAT(at("h_function.H@-1"), HasSubstr("a time at most run.time"));
+  for (const char* r : {"radial_distribution.g@0", "radial_distribution.g@1e9", "radial_distribution.g@1.9"})
+    EXPECT_THAT(at(r), HasSubstr("the table begins at a larger r, or ends at a smaller")) << r;
+  EXPECT_THAT(at("structure_factor.S@1e9"), HasSubstr("the table begins at a larger k, or ends at a smaller"));
+  for (const char* x : {"density_profile.density@0", "density_profile.density@9.5"})
+    EXPECT_THAT(at(x), HasSubstr("rows are at the x of the middles of cells")) << x;
+  EXPECT_THAT(at("voronoi_neighbours.fraction@6.5"), HasSubstr("neighbours is a whole number"));
+  EXPECT_THAT(at("mean_square_displacement.msd@0.1@0.2"), HasSubstr("behind @ there is to be a value of lag, such as"));
+}
+
 TEST_F(SweepReader, ATableHasCellsByAPlaceInThem) {
   const auto at = [&](const std::string& name, const std::string& more = "") {
     return files_.refusal(scene_line + "table = [\"observables." + name + "\"]\n[set]\nrun.time = 4.0\n" +

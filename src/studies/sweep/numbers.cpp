@@ -128,6 +128,9 @@ constexpr std::array<std::string_view, 7> empty_at_first = {
     "fields",   "mean_square_displacement", "intermediate_scattering", "overlap", "non_gaussian",
     "van_hove", "velocity_autocorrelation"};
 
+/// First columns that count something. There is nothing between two rows.
+constexpr std::array<std::string_view, 2> counts = {"neighbours", "size"};
+
 std::optional<double> value_of(const Json& json) { return json.is_null() ? std::nullopt : std::optional(json.get<double>()); }
 
 void collect(const Json& json, const std::string& name, std::vector<SummaryNumber>& numbers) {
@@ -176,6 +179,14 @@ void sample_those_empty_at_first(ObservableGroup& group, State state) {
         observable->sample(state, Totals{});
       }
     }
+}
+
+/// Returns what the observables of a scene measure in disks at rest.
+std::vector<Measurement> results_of_nothing(const Scene& scene, const Disks& disks, const State& state) {
+  ObservableGroup group(observed_run(scene, disks, 1.0));
+  group.start(state);
+  sample_those_empty_at_first(group, state);
+  return group.results(0.0, Totals{});
 }
 
 /// Returns whether a column of a table says which row it is: of a lag, a time, or a cell.
@@ -232,7 +243,7 @@ std::optional<TableNumber> table_number(std::string_view name) {
   if (!name.starts_with(observables) || sign == std::string_view::npos) return {};
   const std::string_view middle = name.substr(observables.size(), sign - observables.size());
   const std::size_t dot = middle.find('.');
-  if (dot == std::string_view::npos) return {};
+  if (dot == std::string_view::npos || middle.find('@') != std::string_view::npos) return {};
   TableNumber number{std::string(middle.substr(0, dot)), std::string(middle.substr(dot + 1)), {}};
   for (const std::string& value : split_at_commas(std::string(name.substr(sign + 1)))) {
     const std::optional<double> at = number_of(value);
@@ -244,15 +255,41 @@ std::optional<TableNumber> table_number(std::string_view name) {
 
 namespace {
 
+bool has_walls_that_move(const Scene& scene) {
+  const Effects effects = detail::effects_of_whole_run(scene);
+  return std::ranges::any_of(std::array{"moving_walls", "oscillating_walls", "pistons"},
+                             [&](const char* moving) { return detail::effect_named(moving).acts(effects); });
+}
+
 /// Returns whether tables of the scene's runs may have a row where a column that says which row it is has the value `at`.
 bool may_reach(const Scene& scene, const std::string& column, double at) {
-  if (column == "lag" || column == "time") return !scene.run.time || at <= *scene.run.time;
-  if (column != "x" && column != "y") return true;
-  const Effects effects = detail::effects_of_whole_run(scene);
-  for (const char* moving : {"moving_walls", "oscillating_walls", "pistons"})
-    if (detail::effect_named(moving).acts(effects)) return true;
+  if (column == "lag" || column == "time") return at >= 0.0 && (!scene.run.time || at <= *scene.run.time);
+  if (std::ranges::find(counts, column) != counts.end()) return at >= 0.0 && at == std::floor(at);
+  if ((column != "x" && column != "y") || has_walls_that_move(scene)) return true;
   const int axis = column == "x" ? 0 : 1;
   return at >= scene.box.lower[axis] && at <= scene.box.upper[axis];
+}
+
+/// Returns whether a curve over a lag, a length or a wave number may begin and end around a value. Where radii are drawn or walls
+/// move, each run has lengths of its own; what has no rows before it is measured may have any.
+bool may_be_on_curve(const Scene& given, const TableNumber& wanted) {
+  if (wanted.at.size() > 1 || std::ranges::any_of(given.species, &Species::radii_are_drawn) || has_walls_that_move(given))
+    return true;
+  Scene scene = given;
+  scene.effects = detail::effects_of_whole_run(given);
+  const Disks disks = all_disks(given);
+  for (const Measurement& measured :
+       results_of_nothing(scene, disks, state_of_nothing(scene, static_cast<Eigen::Index>(disks.count()))))
+    for (const Table& table : measured.tables) {
+      const Column& rows = table.columns.front();
+      if (table.name != wanted.table || rows.values.empty()) continue;
+      const auto [first, last] = std::ranges::minmax(rows.values);
+      const double at = wanted.at.front();
+      if (rows.name == "lag") return at > 0.0 || first == 0.0;  // its other rows depend on speeds
+      if (rows.unit != "length" && rows.unit != "1 / length") return true;
+      return (at >= first || !differ(at, first)) && (at <= last || !differ(at, last));
+    }
+  return true;
 }
 
 }  // namespace
@@ -264,7 +301,8 @@ bool has_number(const std::string& name, const Scene& scene, const std::vector<s
   const auto found = std::find_if(numbers.begin(), numbers.end(), [&](const std::string& one) { return one.starts_with(form); });
   if (found == numbers.end()) return false;
   return std::ranges::equal(split_at_commas(found->substr(form.size())), wanted->at,
-                            [&](const std::string& column, double at) { return may_reach(scene, column, at); });
+                            [&](const std::string& column, double at) { return may_reach(scene, column, at); }) &&
+         may_be_on_curve(scene, *wanted);
 }
 
 bool is_usual_number(std::string_view name) {
@@ -282,10 +320,7 @@ std::vector<std::string> number_names(const Scene& given) {
   if (scene.effects.collision.roughness) report.of_effects.spin_temperature = 0.0;
   if (scene.run.accept_overlap) report.overlap_at_start = 0.0;
   if (!scene.changes.empty()) report.of_effects.changes.emplace();
-  ObservableGroup group(observed_run(scene, disks, 1.0));
-  group.start(state);
-  sample_those_empty_at_first(group, state);
-  report.observables = group.results(0.0, Totals{});
+  report.observables = results_of_nothing(scene, disks, state);
   std::vector<std::string> names;
   for (const SummaryNumber& number : numbers_of(Json::parse(summary_json(report, {})))) names.push_back(number.name);
   for (const Measurement& measured : report.observables)
@@ -358,7 +393,13 @@ std::optional<std::string> fault_of_place(const std::string& name, const std::ve
   if (!wanted || wanted->at.size() != count)
     return fmt::format("behind @ there is to be a value of {}, such as {}{}", columns, form->substr(0, sign + 1),
                        fmt::join(std::vector<double>(count, 1.5), ","));
+  if (columns == "lag" && wanted->at.front() <= 0.0) return "no run has a row there; the table begins at a larger lag";
   if (columns == "lag") return "no run is that long; a lag is at most run.time";
+  if (std::ranges::find(counts, columns) != counts.end()) return fmt::format("{} is a whole number", columns);
+  if (columns == "r" || columns == "k")
+    return fmt::format("no run has a row there; the table begins at a larger {0}, or ends at a smaller", columns);
+  if (columns == "x" || columns == "y")
+    return fmt::format("no run has a row there; rows are at the {} of the middles of cells", columns);
   return "no run has a row there; a place is in the box, and a time at most run.time";
 }
 
