@@ -88,8 +88,10 @@ template <class Real, class Counts>
       if (top > until) return infinity<Real>;
     } else if (falling && !falls_at_end) {
       const Real t = contact_between(top, bracketed_root<Real>(rate, to, from));
-      if (t > until && t < infinity<Real>) return infinity<Real>;
-      if (t <= until && counts(t)) return t;
+      if (t < infinity<Real>) {  // else it passes, and may come back
+        if (t > until) return infinity<Real>;
+        if (counts(t)) return t;
+      }
     }
     falling = falls_at_end;
     from = to;
@@ -113,7 +115,7 @@ struct Arc {
   bool is_wide;    ///< more than half a circle
   bool is_closed;  ///< a full circle, which has no ends
 
-  /// `span` is the angle from `start` to `end` in degrees, above 0 and at most 360.
+  /// `span` is the angle from `start` to `end` in degrees, above 0 and at most 360 but for rounding.
   Arc(const Vec2<Real>& middle, Real size, const Vec2<Real>& start, const Vec2<Real>& end, double span)
       : centre(middle), radius(size), first(start), last(end), is_wide(span > 180.0), is_closed(span >= 360.0) {
     using std::sqrt;

@@ -217,7 +217,8 @@ void check_segment(const Box& box, const SegmentObstacle& segment, const std::st
 /// The whole arc lies in the box: what sticks out would be met by nothing, or by its own image.
 void check_arc(const Box& box, const ArcObstacle& arc, const std::string& path) {
   const double span = arc.to - arc.from;
-  if (!(span > 0.0 && span <= 360.0))
+  constexpr double full = 360.0 * (1.0 + 1e-12);  // from + 360 may be a rounding more
+  if (!(span > 0.0 && span <= full))
     throw Refusal(
         path + ".arc",
         fmt::format("{}.arc runs counterclockwise from {} to {} degrees; `to` must be above `from`, by at most 360, such "

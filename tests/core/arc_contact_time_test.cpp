@@ -68,8 +68,11 @@ TEST_F(ArcContactTime, ParabolasCrossACircleWhereTheyAreSaidTo) {
     const double start = sign * (r.norm() - sigma);
     if (start < 1e-3) continue;
     const auto gap = [&](double t) { return sign * (static_cast<double>(distance_at(r, v, g, t)) - (sigma + growth * t)); };
-    const double t =
-        ballistic_crossing<double>(BallisticApproach<double>{r, v, g, sigma, growth}, sign, until, [](double) { return true; });
+    const BallisticApproach<double> approach{r, v, g, sigma, growth};
+    const auto any = [](double) { return true; };
+    const double t = ballistic_crossing<double>(approach, sign, until, any);
+    const double ever = ballistic_crossing<double>(approach, sign, infinity<double>, any);
+    EXPECT_EQ(ever <= until ? ever : infinity<double>, t) << n;
     const double end = std::min({t, until, growth < 0.0 ? sigma / -growth : until});
     for (int k = 0; k < 200; ++k) ASSERT_GT(gap(end * k / 200.0), -1e-9) << n << ", " << k;
     if (!(t <= until)) continue;
@@ -93,6 +96,20 @@ TEST_F(ArcContactTime, EveryCrossingIsOffered) {
   for (const double when : offered) EXPECT_NEAR(thrown.separation(when).norm(), 1.0, 1e-14);
   EXPECT_GT(thrown.separation(offered[0]).y(), 0.0);
   EXPECT_LT(thrown.separation(offered[1]).y(), 0.0);
+}
+
+// It passes a circle on its way up, and falls onto it.
+TEST_F(ArcContactTime, AnApproachThatMissesIsNotTheLast) {
+  const BallisticApproach<double> thrown{{-2.5, -1.0}, {0.5, 3.0}, {0.0, -1.0}, 1.1, 0.0};
+  std::vector<double> offered;
+  const double t = ballistic_crossing<double>(thrown, 1, infinity<double>, [&](double when) {
+    offered.push_back(when);
+    return true;
+  });
+  ASSERT_EQ(offered.size(), 1U);
+  EXPECT_EQ(t, offered[0]);
+  EXPECT_NEAR(thrown.separation(t).norm(), 1.1, 1e-14);
+  EXPECT_GT(thrown.separation(t).y(), 0.0);
 }
 
 }  // namespace
