@@ -56,9 +56,12 @@ class Clusters final : public SavedObservable<Clusters> {
     put(found, {.name = "clusters_per_disk"}, clusters_);
     put(found, {.name = "mean_size"}, mean_size_);
     put(found, {.name = "largest"}, largest_);
-    put(found, {.name = "percolating"}, percolating_);
-    put(found, {.name = "percolating_x"}, percolating_x_);
-    put(found, {.name = "percolating_y"}, percolating_y_);
+    for (const auto& [name, blocking] : {std::pair{"percolating", &percolating_}, std::pair{"percolating_x", &percolating_x_},
+                                         std::pair{"percolating_y", &percolating_y_}})
+      if (run_.scene.box.is_circle)
+        found.scalars.push_back({.name = name, .note = "a circular box has no two sides to be joined"});
+      else
+        put(found, {.name = name}, *blocking);
     Table table{.name = name()};
     table.columns = {{"size", "", {}}, {"size_to", "", {}}};
     for (std::size_t k = 0; k < sizes_.size(); ++k) {

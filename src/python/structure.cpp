@@ -10,10 +10,13 @@
 
 #include <nanobind/stl/tuple.h>
 
+#include <fmt/format.h>
+
 #include <complex>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -64,6 +67,12 @@ using Clusters = std::tuple<Array<std::int64_t>, Array<std::int64_t>, Array<std:
 Clusters clusters(const Scene& scene, const State& given, double gap) {
   const Start start = placed(scene, given);
   const std::vector<double> radii = radii_of(start.disks, start.state);
+  for (int axis = 0; axis < 2; ++axis)
+    if (scene.box.periodic(axis) && gap > scene.box.lengths()[axis])
+      throw std::invalid_argument(
+          fmt::format("gap={:g}: the periodic box is {:g} long in {}, so that every disk would be near its "
+                      "own image",
+                      gap, scene.box.lengths()[axis], axis == 0 ? "x" : "y"));
   const DiskClusters found(box_of(scene.box, start.state), start.state.positions, radii, gap,
                            contact_scales<double>(scene.effects, start.disks));
   std::vector<std::int64_t> numbers(radii.size()), sizes(radii.size());

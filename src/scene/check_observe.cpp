@@ -120,6 +120,13 @@ void check_clusters(const Scene& scene, const ObservableRequest& request) {
   if (const std::string_view why = first_reason(scene.effects, &EffectTraits::why_no_structure, &EffectTraits::changes_radii);
       !why.empty())
     refuse_observable(request, std::string(why));
+  if (!request.range) return;
+  const double diameter = mean_diameter(scene);
+  for (int axis = 0; axis < 2; ++axis)
+    if (scene.box.periodic(axis) && *request.range * diameter > scene.box.lengths()[axis])
+      refuse_observable(request, fmt::format("has a gap of {:.6g} mean diameters, and the periodic box is {:.6g} of them long in "
+                                             "{}, so that every disk would be near its own image; make the gap smaller",
+                                             *request.range, scene.box.lengths()[axis] / diameter, axis_names[axis]));
 }
 
 /// Wave vectors are whole numbers of waves in the box. Columns have names by six digits of k, and no two have the same vectors.
