@@ -115,7 +115,7 @@ void check_regions(const Scene& scene) {
                                       "the disks smaller",
                                       largest, path, narrowest));
     const double fraction = area / area_of(*random->region);
-    const bool equal = species.radii.empty();
+    const bool equal = species.radii.empty() && species.count > 1;
     if (fraction > (equal ? closest_packing * (1.0 + touching) : 1.0))
       throw Refusal(path,
                     fmt::format("the disks of {}.random would cover {:.4g} of it{}; take fewer or smaller disks, or a larger "
@@ -155,7 +155,7 @@ void check_density(const Scene& scene) {
     throw Refusal(fmt::format("disks.{}", *first),
                   fmt::format("the packing fraction would be {:.6g}, but {} cannot exceed {:.4g}; take fewer or smaller "
                               "disks, or a larger box",
-                              fraction, equal ? "that of equal disks" : "it", limit));
+                              fraction, equal && radii.disks > 1 ? "that of equal disks" : "it", limit));
   }
   const bool wide = scene.box.lengths().minCoeff() >= random_limit_diameters * 2.0 * radii.largest;
   if (all_random && equal && wide && fraction > random_limit) {

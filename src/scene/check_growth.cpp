@@ -40,7 +40,7 @@ void check_target(const Scene& scene, const Growth& growth) {
   const double target = *growth.packing_fraction;
   const double present = scene.packing_fraction();
   const Radii radii = radii_of(scene);
-  if (target > closest_packing * (1.0 + touching) && radii.equal() && !brings_unlike_nearer(scene)) {
+  if (target < 1.0 && target > radii.densest() * (1.0 + touching) && !brings_unlike_nearer(scene)) {
     throw Refusal("growth", fmt::format("growth.until.packing_fraction is {}, but that of equal disks cannot exceed {:.4g}; "
                                         "disks of random order jam near 0.84",
                                         target, closest_packing));

@@ -16,9 +16,9 @@ std::span<const Eigen::Vector2d> given_positions(const Species& species) {
 }
 
 Radii radii_of(const Species& species) {
-  if (species.radii.empty()) return {species.radius, species.radius};
+  if (species.radii.empty()) return {species.radius, species.radius, species.count};
   const auto [low, high] = std::minmax_element(species.radii.begin(), species.radii.end());
-  return {*low, *high};
+  return {*low, *high, species.count};
 }
 
 Radii radii_of(const Scene& scene) {
@@ -28,6 +28,7 @@ Radii radii_of(const Scene& scene) {
     const Radii own = radii_of(species);
     radii.smallest = radii.smallest == 0.0 ? own.smallest : std::min(radii.smallest, own.smallest);
     radii.largest = std::max(radii.largest, own.largest);
+    radii.disks += own.disks;
   }
   return radii;
 }

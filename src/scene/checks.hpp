@@ -34,10 +34,11 @@ std::span<const Eigen::Vector2d> given_positions(const Species& species);
 struct Radii {
   double smallest = 0.0;
   double largest = 0.0;
+  std::int64_t disks = 0;
 
   [[nodiscard]] bool equal() const { return largest <= smallest * (1.0 + touching); }
-  /// No packing fraction is above it.
-  [[nodiscard]] double densest() const { return equal() ? closest_packing : 1.0; }
+  /// No packing fraction is above it. One disk may fill a circle.
+  [[nodiscard]] double densest() const { return equal() && disks > 1 ? closest_packing : 1.0; }
 };
 Radii radii_of(const Scene& scene);
 /// Requires that the species has disks.

@@ -46,6 +46,25 @@ TEST(Regions, ACircleHoldsItsDisksAndIsFilledEvenly) {
   EXPECT_NEAR(inner / all, 0.25, 4.0 * std::sqrt(0.25 * 0.75 / all)) << "a quarter of the area";
 }
 
+TEST(Regions, ACircleIsFilledByOneDisk) {
+  const Eigen::Matrix2Xd found =
+      make_simulation(parse_scene(testing_support::changed(
+                          {{"\"random\"", "{ random = { centre = [5, 4], radius = 0.2501 } }"}, {"count = 10", "count = 1"}})))
+          .state()
+          .positions;
+  EXPECT_LE((found.col(0) - Eigen::Vector2d(5.0, 4.0)).norm(), 1.001e-4);
+}
+
+TEST(CircularBox, IsFilledByOneDisk) {
+  const std::string text =
+      "[box]\ncircle = { centre = [0, 0], radius = 1.0 }\n[[disks]]\ncount = COUNT\nradius = 0.99\nmass = 1.0\npositions = "
+      "\"random\"\nvelocities = { speed = 1.0 }\n[collision]\nrule = \"specular\"\n[run]\ntime = 1.0\n";
+  const auto with = [&](const std::string& count) { return std::string(text).replace(text.find("COUNT"), 5, count); };
+  const Eigen::Matrix2Xd found = make_simulation(parse_scene(with("1"))).state().positions;
+  EXPECT_LE(found.col(0).norm(), 0.01 * (1.0 + 1e-12));
+  EXPECT_THROW((void)parse_scene(with("2")), SceneError);
+}
+
 TEST(Regions, OtherSpeciesAreDrawnAsWithout) {
   const std::string second =
       "[[disks]]\nname = \"more\"\ncount = 3\nradius = 0.1\nmass = 1.0\npositions = { random = { x = [9, 10], y = [0, 8] } "
