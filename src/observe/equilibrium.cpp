@@ -54,20 +54,15 @@ bool keeps_set_of_speeds(const Effects& effects) {
          why_no_Z(effects, &detail::EffectTraits::keeps_speeds).empty();
 }
 
-/// Whether all acting effects have a trait.
-bool all_acting(const Effects& effects, bool detail::EffectTraits::*trait) {
-  return std::ranges::all_of(detail::all_effects(),
-                             [&](const detail::EffectTraits& effect) { return effect.*trait || !effect.acts(effects); });
-}
-
 bool keeps_turning(const Scene& scene) {
   return scene.box.is_circle && scene.effects.collision.rule == CollisionRule::specular &&
-         all_acting(scene.effects, &detail::EffectTraits::conserves_angular_momentum);
+         std::ranges::all_of(detail::all_effects(), [&](const detail::EffectTraits& effect) {
+           return effect.conserves_angular_momentum || !effect.acts(scene.effects);
+         });
 }
 
 bool keeps_energy_of_positions(const Effects& effects) {
-  return detail::any_acting(effects, &detail::EffectTraits::has_potential_energy) &&
-         all_acting(effects, &detail::EffectTraits::conserves_energy);
+  return detail::any_acting(effects, &detail::EffectTraits::has_potential_energy) && detail::conserve_energy(effects);
 }
 
 }  // namespace

@@ -86,10 +86,10 @@ std::string conserved(const Box& box, const Effects& effects) {
   };
   const bool x = conserves_momentum(box, effects, 0), y = conserves_momentum(box, effects, 1);
   std::vector<std::string_view> names;
-  if (all_conserve(&EffectTraits::conserves_energy)) names.emplace_back("energy");
+  if (detail::conserve_energy(effects)) names.emplace_back("energy");
   if (x || y) names.emplace_back(x && y ? "momentum" : x ? "momentum along x" : "momentum along y");
   if (effects.collision.rule == CollisionRule::specular && all_conserve(&EffectTraits::conserves_angular_momentum))
-    names.emplace_back("angular momentum in collisions of disks");
+    names.emplace_back(box.is_circle ? "angular momentum about the centre" : "angular momentum in collisions of disks");
   return names.empty() ? "nothing" : fmt::format("{}", fmt::join(names, ", "));
 }
 

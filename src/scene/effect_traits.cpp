@@ -463,6 +463,13 @@ std::string_view first_reason(const Effects& effects, std::string_view EffectTra
   return {};
 }
 
+bool conserve_energy(const Effects& effects) {
+  return std::ranges::none_of(all_effects(), [&](const EffectTraits& effect) {
+    const bool is_perfect = effect.name == "roughness" && effects.collision.roughness == 1.0;
+    return !effect.conserves_energy && !is_perfect && effect.acts(effects);
+  });
+}
+
 std::string tables_with_key(std::string_view key) {
   std::vector<std::string_view> titles;
   for (const EffectTraits& effect : all_effects())

@@ -103,6 +103,9 @@ void set_numbers(Effects& effects, const EffectTraits& effect, double EffectNumb
 [[nodiscard]] std::string_view first_reason(const Effects& effects, std::string_view EffectTraits::*reason,
                                             bool EffectTraits::*passed_over = nullptr);
 
+/// Returns whether no effect that acts gives or takes energy of disks and pistons. Collisions of perfectly rough disks take none.
+[[nodiscard]] bool conserve_energy(const Effects& effects);
+
 /// The titles of the effects whose table has a key, "[growth] or [shear]"; empty where none has.
 [[nodiscard]] std::string tables_with_key(std::string_view key);
 

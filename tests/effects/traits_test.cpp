@@ -232,6 +232,15 @@ TEST(ConservedQuantities, AreNamed) {
   effects.collision.restitution = 0.5;
   box.boundary[1] = Boundary::periodic;
   EXPECT_EQ(conserved(box, effects), "momentum, angular momentum in collisions of disks");
+  effects.collision = {.rule = CollisionRule::specular, .roughness = 1.0};
+  EXPECT_EQ(conserved(box, effects), "energy, momentum, angular momentum in collisions of disks");
+  effects.collision.roughness = 0.5;
+  EXPECT_EQ(conserved(box, effects), "momentum, angular momentum in collisions of disks");
+  effects.collision.roughness.reset();
+  effects.circle = Circle{.centre = {0.5, 0.5}, .radius = 0.5};
+  box.is_circle = true;
+  box.boundary = {Boundary::walls, Boundary::walls};
+  EXPECT_EQ(conserved(box, effects), "energy, angular momentum about the centre");
 }
 
 }  // namespace
