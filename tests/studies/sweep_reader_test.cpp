@@ -48,6 +48,16 @@ TEST_F(SweepReader, AGridHasEveryCombinationAndItsFirstKeyChangesLast) {
   EXPECT_EQ(sweep.directory_of(11), "time=2_count=30/seed=2");
 }
 
+TEST_F(SweepReader, AKeyIsNotInSetAndInGrid) {
+  EXPECT_THAT(files_.refusal(scene_line + "[set]\n\"run.time\" = 3.0\n[grid]\n\"run.time\" = [1.0, 2.0]\n"),
+              HasSubstr("sweep.toml:3:1: run.time is in [grid] too, which gives every point a value of its own; remove it from "
+                        "one of the two"));
+  EXPECT_EQ(files_.refusal(scene_line + "[set]\n\"run.time\" = 3.0\n[[points]]\nname = \"a\"\n[[points]]\nname = "
+                                        "\"b\"\n\"run.time\" = 1.0\n"),
+            "")
+      << "points that are listed may have what others have not";
+}
+
 TEST_F(SweepReader, ListedPointsFollowTheGridAndMayHaveNames) {
   const Sweep sweep = files_.load(scene_line +
                                   "[grid]\n\"run.time\" = [1.0]\n"

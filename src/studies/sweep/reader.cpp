@@ -156,6 +156,12 @@ void read_points(const toml::table& document, std::size_t most, Sweep& sweep) {
   if (const toml::node* grid = document.get("grid")) {
     if (!grid->is_table()) refuse(*grid, "grid", "a table, such as [grid]");
     read_grid(*grid->as_table(), most, sweep);
+    for (std::size_t k = 0; k < sweep.shared.size(); ++k)
+      if (const std::string key = sweep.shared[k].substr(0, sweep.shared[k].find('='));
+          std::ranges::find(sweep.keys, key) != sweep.keys.end())
+        throw SceneError(sweep.shared_places[k], fmt::format("{} is in [grid] too, which gives every point a value of its own; "
+                                                             "remove it from one of the two",
+                                                             key));
   }
   if (const toml::node* points = document.get("points")) read_list(*points, most, sweep);
   if (sweep.points.empty()) sweep.points.push_back({.name = "", .values = {}, .places = {}, .where = sweep.scene_where});
