@@ -61,7 +61,7 @@ struct Horizon {
   double resolution = 0.0;  ///< time from one comparison to the next: horizons are known to this, rounded down
   std::string engine;       ///< the one that runs the scene; a name in rows
   std::vector<HorizonRow> rows;
-  std::optional<Lyapunov> lyapunov;  ///< empty where pairs of disks collide too rarely, or lose energy
+  std::optional<Lyapunov> lyapunov;  ///< empty where too few collisions of pairs were followed, or they lose energy
   double time = 0.0;                 ///< compared up to here
   double collisions_per_disk = 0.0;  ///< collisions per disk until `time`, in the best precision
   std::uint64_t collisions = 0;      ///< number of pair collisions until `time`, in the best precision

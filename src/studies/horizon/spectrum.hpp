@@ -45,7 +45,7 @@ struct SpectrumOptions {
 
 /// Why measure_spectrum() found nothing, where nobody has stopped it.
 inline constexpr std::string_view no_exponents =
-    "no exponents were measured: pairs of disks collide too rarely, or collisions lose energy";
+    "no exponents were measured: too few collisions of pairs were followed, or collisions lose energy";
 
 /// Returns why the spectrum of this scene is not measured, as a sentence; empty where it is.
 [[nodiscard]] std::string why_no_spectrum(const Scene& scene);

@@ -22,7 +22,8 @@ std::string exponent(const Horizon& horizon, const Scene& scene) {
   if (scene.disk_count() < 2)
     return "Lyapunov exponent: not measured, since it is over collisions of pairs, and collisions of one disk with walls or "
            "obstacles are none\n";
-  if (!horizon.lyapunov) return "Lyapunov exponent: unknown; pairs of disks collide too rarely, or collisions lose energy\n";
+  if (!horizon.lyapunov)
+    return "Lyapunov exponent: unknown; too few collisions of pairs were followed, or collisions lose energy\n";
   const Lyapunov& lambda = *horizon.lyapunov;
   return fmt::format("Lyapunov exponent: {} per time, {} per collision of a disk, over {} collisions\n",
                      in_any_unit(lambda.per_time, lambda.per_time_error),
