@@ -198,10 +198,6 @@ void check_non_additivity(const Scene& scene) {
             path, fmt::format("non_additivity.pairs.{} and {} are of the same two species; remove one of them", before, path));
   }
   if (!effect_named("non_additivity").acts(scene.effects)) return;
-  if (kinds < 2)
-    throw Refusal("non_additivity",
-                  "[non_additivity] changes how near disks of two different [[disks]] come, and there is one; add another, or "
-                  "remove it");
   constexpr std::int64_t most_kinds = 1000;
   if (kinds > most_kinds)
     throw Refusal(
