@@ -30,7 +30,7 @@ inline constexpr const char* axis_names[] = {"x", "y"};
 /// Returns the positions of a species that gives them one by one; else none.
 std::span<const Eigen::Vector2d> given_positions(const Species& species);
 
-/// The smallest and the largest radius of all disks; both 0 where there is no disk.
+/// The smallest and the largest radius of all disks, both 0 where there is no disk, and the number of disks.
 struct Radii {
   double smallest = 0.0;
   double largest = 0.0;
