@@ -28,6 +28,14 @@ struct ObstacleMeeting {
   std::int32_t obstacle = -1;
 };
 
+/// The obstacle that a disk overlaps deepest.
+template <class Real>
+struct ObstacleOverlap {
+  std::int32_t obstacle = -1;
+  Real depth = 0;    ///< contact distance minus distance; 0 where the disk overlaps none
+  Real contact = 1;  ///< distance between the centre of the disk and that of a fixed disk, or the segment or arc, in contact
+};
+
 /// A path as bins see it.
 template <class Real>
 [[nodiscard]] SearchPath search_path(const DiskPath<Real>& path, Real until) {
@@ -78,6 +86,15 @@ class ObstacleShapes {
     return sum;
   }
   [[nodiscard]] const Shape& shape(std::int32_t o) const { return shapes_[static_cast<std::size_t>(o)]; }
+
+  /// Keeps the overlap of a disk with an image of obstacle o, if it is deeper than the deepest one so far.
+  void overlap(ObstacleOverlap<Real>& deepest, const Vec2<Real>& r, Real radius, std::int32_t o, const Image& image) const {
+    using std::sqrt;
+    const auto* disk = std::get_if<Disk>(&shape(o));
+    const Real contact = disk ? radius + disk->radius : radius;
+    const Real depth = contact - sqrt(from_image(o, r - shift(image)).squaredNorm());
+    if (depth > deepest.depth) deepest = {o, depth, contact};
+  }
 
   /// Keeps the meeting with an image of obstacle o, by `until`, if it comes before the first one so far.
   void meet(Meeting& first, const DiskPath<Real>& path, std::int32_t o, const Image& image, Real until) const {
@@ -253,6 +270,7 @@ class Obstacles {
       : domain_(box), bins_(box, bounds_of(obstacles)), shapes_(domain_, bins_, obstacles) {}
 
   [[nodiscard]] bool empty() const { return shapes_.count() == 0; }
+  [[nodiscard]] std::int32_t count() const { return shapes_.count(); }
   [[nodiscard]] std::size_t bytes() const { return shapes_.bytes() + bins_.bytes(); }
 
   /// First meeting of a disk on the path r + v s + g s^2/2, 0 <= s <= until, its radius being radius + expansion s, with any
@@ -272,6 +290,20 @@ class Obstacles {
         [&](std::int32_t o, const RectangleBins::Image& image) { shapes_.meet(first, path, o, image, until); },
         [&first](double time) { return first.time <= Real(time); });
     return first;
+  }
+
+  /// Returns the overlap of a disk at r with the obstacle that it overlaps deepest. Only the first
+  /// `count` obstacles are looked at.
+  [[nodiscard]] ObstacleOverlap<Real> deepest_overlap(const Vec2<Real>& r, Real radius, std::int32_t count) const {
+    ObstacleOverlap<Real> deepest;
+    const Vec2<Real> rest = Vec2<Real>::Zero();
+    bins_.follow(
+        search_path<Real>({r, rest, rest, radius, Real(0)}, Real(0)),
+        [&](std::int32_t o, const RectangleBins::Image& image) {
+          if (o < count) shapes_.overlap(deepest, r, radius, o, image);
+        },
+        [](double) { return true; });
+    return deepest;
   }
 
   /// A disk at r meets an obstacle: changes its velocity. `g` is its acceleration.

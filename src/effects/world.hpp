@@ -89,6 +89,10 @@ struct AnyWorld {
   [[nodiscard]] double beyond_circle(const Vec2<double>& r, double radius) const {
     return ((r - circle_->centre).norm() + radius) - circle_->radius;
   }
+  /// Returns the overlap of a disk at r with the obstacle that it overlaps deepest; the rim of a circular box is left out.
+  [[nodiscard]] ObstacleOverlap<double> overlap_with_obstacles(const Vec2<double>& r, double radius) const {
+    return obstacles.deepest_overlap(r, radius, rim_ < 0 ? obstacles.count() : rim_);
+  }
   [[nodiscard]] bool in_circle() const { return circle_.has_value(); }
   [[nodiscard]] std::size_t bytes() const { return obstacles.bytes(); }
 

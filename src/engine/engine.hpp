@@ -12,6 +12,7 @@
 
 #include "core/instant.hpp"
 #include "core/vec2.hpp"
+#include "effects/obstacles.hpp"
 #include "engine/collision_recorder.hpp"
 #include "engine/continuation.hpp"
 #include "engine/event_loop.hpp"
@@ -108,6 +109,7 @@ class Engine : public EventLoop<Impact, Layout, World> {
   [[nodiscard]] std::int32_t slot_of(std::int32_t disk);
   [[nodiscard]] double contact_distance(std::int32_t i, std::int32_t j) const;
   [[nodiscard]] double beyond_walls(std::int32_t i, int axis) const;
+  [[nodiscard]] ObstacleOverlap<double> overlap_with_obstacles(std::int32_t i) const;
   void check_pair(std::int32_t i, std::int32_t j, double tolerated_overlap, std::vector<std::string>& faults) const;
 
   std::vector<std::int32_t> slot_of_id_;  ///< once slot_of() is called

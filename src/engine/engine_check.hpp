@@ -40,6 +40,13 @@ std::vector<std::string> Engine<Impact, Layout, World>::check_invariants(double 
       if (out > tolerated_overlap * layout_.radius(a) * world_.scale(now_) + 1e-12 * flight_.length(k) + rounding)
         faults.push_back(fmt::format("disk {}: {} beyond a wall across axis {}", id(i), out, k));
     }
+    if constexpr (!World::plain) {
+      const auto [obstacle, depth, contact] = overlap_with_obstacles(i);
+      // Obstacles are met by coordinates too, and are joined where their ends are within 1e-12 of the box.
+      const double rounding = 16.0 * epsilon<double> * flight_.place(a, now_).cwiseAbs().maxCoeff();
+      if (depth > tolerated_overlap * contact + 1e-12 * (contact + flight_.length(0) + flight_.length(1)) + rounding)
+        faults.push_back(fmt::format("disk {}: overlaps obstacles.{} by {}", id(i), obstacle, depth));
+    }
     for (std::uint32_t n = 0; n < lists_.count(i); ++n) check_pair(i, lists_.ids(i)[n], tolerated_overlap, faults);
   }
   if (count() > 2000) return faults;  // the rest compares all pairs
@@ -72,14 +79,26 @@ double Engine<Impact, Layout, World>::beyond_walls(std::int32_t i, int axis) con
   return out;
 }
 
+/// The overlap of disk i with the obstacle that it overlaps deepest.
+template <class Impact, class Layout, class World>
+ObstacleOverlap<double> Engine<Impact, Layout, World>::overlap_with_obstacles(std::int32_t i) const {
+  if constexpr (World::plain)
+    return {};
+  else
+    return world_.overlap_with_obstacles(flight_.place(line(i), now_), layout_.radius(line(i)) * world_.scale(now_));
+}
+
 template <class Impact, class Layout, class World>
 double Engine<Impact, Layout, World>::deepest_overlap() const {
   double deepest = 0.0;
-  for (std::int32_t i = 0; i < count(); ++i)
-    for (int axis = 0; axis < 2; ++axis) {
-      const double depth = beyond_walls(i, axis) / (layout_.radius(line(i)) * world_.scale(now_));
-      if (depth <= touches_a_wall) deepest = std::max(deepest, depth);
-    }
+  const auto consider = [&deepest](double depth) {
+    if (depth <= touches_a_wall) deepest = std::max(deepest, depth);
+  };
+  for (std::int32_t i = 0; i < count(); ++i) {
+    for (int axis = 0; axis < 2; ++axis) consider(beyond_walls(i, axis) / (layout_.radius(line(i)) * world_.scale(now_)));
+    const auto at_obstacle = overlap_with_obstacles(i);
+    consider(at_obstacle.depth / at_obstacle.contact);
+  }
   for (std::int32_t i = 0; i < count(); ++i)
     for (std::uint32_t n = 0; n < lists_.count(i); ++n) {
       const std::int32_t j = lists_.ids(i)[n];

@@ -260,11 +260,15 @@ Real TextbookEngine<Real>::beyond_walls(std::int32_t i, int axis) const {
 template <class Real>
 double TextbookEngine<Real>::deepest_overlap() const {
   Real deepest = 0;
-  for (std::int32_t i = 0; i < count() && count() <= 2000; ++i)
-    for (int axis = 0; axis < 2; ++axis) {
-      const Real depth = beyond_walls(i, axis) / radius_at(record(i), now_);
-      if (depth <= touches_a_wall) deepest = std::max<Real>(deepest, depth);
-    }
+  const auto consider = [&deepest](Real depth) {
+    if (depth <= touches_a_wall) deepest = std::max<Real>(deepest, depth);
+  };
+  for (std::int32_t i = 0; i < count() && count() <= 2000; ++i) {
+    const Real radius = radius_at(record(i), now_);
+    for (int axis = 0; axis < 2; ++axis) consider(beyond_walls(i, axis) / radius);
+    const auto at_obstacle = world_.overlap_with_obstacles(position(record(i), now_), radius);
+    consider(at_obstacle.depth / at_obstacle.contact);
+  }
   for (std::int32_t i = 0; i < count() && count() <= 2000; ++i)
     for (std::int32_t j = i + 1; j < count(); ++j)
       deepest = std::max<Real>(deepest, overlap_with(i, j, nearest_image(i, j)) / contact_distance_at(i, j, now_));
@@ -297,6 +301,11 @@ std::vector<std::string> TextbookEngine<Real>::check_invariants(double tolerated
       if (out > Real(tolerated_overlap) * radius_at(a, now_) + tolerance * world_.edges.domain().length[axis] + rounding)
         faults.push_back(fmt::format("disk {}: {} beyond a wall across axis {}", i, static_cast<double>(out), axis));
     }
+    const auto [obstacle, depth, contact] = world_.overlap_with_obstacles(r, radius_at(a, now_));
+    // Obstacles are joined where their ends are within 1e-12 of the box.
+    const Real room = contact + world_.edges.domain().length.sum();
+    if (depth > Real(tolerated_overlap) * contact + tolerance * room + rounding)
+      faults.push_back(fmt::format("disk {}: overlaps obstacles.{} by {}", i, obstacle, static_cast<double>(depth)));
   }
   if (count() > 2000) return faults;  // the rest compares all pairs
 

@@ -144,6 +144,10 @@ struct TextbookWorld {
     scale_at_epoch += expansion * now;
   }
 
+  /// Returns the overlap of a disk at r with the obstacle that it overlaps deepest; the rim of a circular box is left out.
+  [[nodiscard]] ObstacleOverlap<Real> overlap_with_obstacles(const Vec2<Real>& r, Real radius) const {
+    return obstacles.deepest_overlap(r, radius, rim < 0 ? obstacles.count() : rim);
+  }
   [[nodiscard]] std::size_t bytes() const { return obstacles.bytes(); }
 
   Edges<Real> edges;

@@ -5,6 +5,7 @@
 #include "observe/voronoi_cells.hpp"
 #include "python/buffers.hpp"
 #include "python/parts.hpp"
+#include "scene/checks.hpp"
 #include "scene/contact_scales.hpp"
 #include "simulation/start.hpp"
 
@@ -25,7 +26,7 @@ namespace carom::python {
 
 namespace {
 
-/// The disks of a scene in a given state. Throws as start_from() does, and where one lies beyond a wall.
+/// Returns the disks of a scene in a given state. Throws as start_from() does, and where one lies beyond a wall.
 Start placed(const Scene& scene, const State& given) {
   Start start = start_from(scene, given);
   require_between_walls(scene, start.state);
@@ -40,8 +41,8 @@ Array<Value> one_for_each(std::vector<Value> values) {
 
 using Voronoi = std::tuple<Array<double>, Array<std::int64_t>, Array<double>, Array<double>, Array<std::uint8_t>>;
 
-/// The areas of the cells, their numbers of neighbours, size and angle of their sixfold order (not a number where a wall cuts the
-/// cell off), and whether a wall does.
+/// Returns the areas of the cells, their numbers of neighbours, size and angle of their sixfold order (not a number where a wall
+/// cuts the cell off), and whether a wall does.
 Voronoi voronoi(const Scene& scene, const State& given) {
   const Start start = placed(scene, given);
   const VoronoiCells cells(box_of(scene.box, start.state), start.state.positions, start.state.shear_displacement);
@@ -63,16 +64,17 @@ Voronoi voronoi(const Scene& scene, const State& given) {
 
 using Clusters = std::tuple<Array<std::int64_t>, Array<std::int64_t>, Array<std::uint8_t>, Array<std::uint8_t>>;
 
-/// The number of each disk's cluster, that cluster's size, and whether it percolates along x and along y. `gap` is a length.
+/// Returns the number of each disk's cluster, that cluster's size, and whether it percolates along x and along y. `gap` is a
+/// length.
 Clusters clusters(const Scene& scene, const State& given, double gap) {
   const Start start = placed(scene, given);
   const std::vector<double> radii = radii_of(start.disks, start.state);
   for (int axis = 0; axis < 2; ++axis)
     if (scene.box.periodic(axis) && gap > scene.box.lengths()[axis])
-      throw std::invalid_argument(
-          fmt::format("gap={:g}: the periodic box is {:g} long in {}, so that every disk would be near its "
-                      "own image",
-                      gap, scene.box.lengths()[axis], axis == 0 ? "x" : "y"));
+      throw std::invalid_argument(fmt::format(
+          "gap={:g}: the periodic box is {:g} long in {}, so that every disk would be near its own image; make the gap "
+          "smaller",
+          gap, scene.box.lengths()[axis], detail::axis_names[axis]));
   const DiskClusters found(box_of(scene.box, start.state), start.state.positions, radii, gap,
                            contact_scales<double>(scene.effects, start.disks));
   std::vector<std::int64_t> numbers(radii.size()), sizes(radii.size());

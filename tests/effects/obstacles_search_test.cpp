@@ -69,6 +69,28 @@ TEST_F(ObstacleSearch, AsksWhoeverMatters) {
   EXPECT_GT(met, 1000);
 }
 
+TEST_F(ObstacleSearch, TheDeepestOverlapIsThatOfAllShapesAskedOneByOne) {
+  int overlaps = 0;
+  for (int n = 0; n < 300; ++n) {
+    const Box box = box_of(between(5.0, 12.0), between(5.0, 12.0), boundary(), boundary());
+    const std::vector<Obstacle> list = crowd(box, 1 + static_cast<int>(random() % 40), between(0.01, 1.5));
+    const Obstacles<double> obstacles(box, list);
+    for (int k = 0; k < 20; ++k) {
+      const Vec2<double> r = place(box);
+      const double radius = between(0.001, 0.8);
+      double depth = 0.0;
+      for (const Obstacle& shape : list)
+        if (const auto found = overlapped_shape(box, {.obstacles = {shape}}, r, radius, 0.0))
+          depth = std::max(depth, found->depth);
+      const auto deepest = obstacles.deepest_overlap(r, radius, obstacles.count());
+      ASSERT_NEAR(deepest.depth, depth, 1e-13) << n << ", " << k;
+      ASSERT_EQ(deepest.obstacle >= 0, deepest.depth > 0.0);
+      overlaps += depth > 0.0;
+    }
+  }
+  EXPECT_GT(overlaps, 1000);
+}
+
 TEST_F(ObstacleSearch, AsksWhoeverMattersOnPathsWithoutEnd) {
   for (int n = 0; n < 300; ++n) {
     const Box box = box_of(between(3.0, 12.0), between(3.0, 12.0), boundary(), Boundary::periodic);

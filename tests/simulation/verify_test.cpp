@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace carom::test {
@@ -69,6 +70,45 @@ TEST(Verify, ABrokenInvariantEndsTheRunWithItsSentence) {
     ASSERT_FALSE(result.faults.empty()) << engine;
     EXPECT_NE(result.faults.front().find("disk 1: 0.25 beyond a wall across axis 1"), std::string::npos) << result.faults.front();
     EXPECT_LT(simulation.time(), 10.0) << "the first check comes after the first event";
+  }
+}
+
+TEST(Verify, ADiskUponAnObstacleIsAFault) {
+  const Box box = box_of(8.0, 8.0, Boundary::periodic, Boundary::walls);
+  const std::vector<Obstacle> obstacles = {DiskObstacle{{2.0, 6.0}, 0.5}, SegmentObstacle{{7.5, 4.0}, {7.5, 6.0}},
+                                           ArcObstacle{{4.0, 4.0}, 2.0, 90.0, 180.0}};
+  // Across the edge from the segment, before the fixed disk, in the hollow of the arc; and beside the end of the arc.
+  const std::vector<std::pair<Eigen::Vector2d, std::string>> places = {{{-0.25 + 8.0, 5.0}, "overlaps obstacles.1 by 0.25"},
+                                                                       {{2.75, 6.0}, "overlaps obstacles.0 by 0.25"},
+                                                                       {{2.25, 4.0}, "overlaps obstacles.2 by 0.25"},
+                                                                       {{4.25, 6.0}, "overlaps obstacles.2 by 0.25"}};
+  Scene scene = scene_of_placed(box, {{{6.0, 2.0}, {0.0, 1.0}}, {{2.0, 2.0}, {0.0, 0.0}}});
+  scene.effects.obstacles = obstacles;
+  for (const auto& [place, fault] : places) {
+    State start = draw_start(scene).state;
+    start.positions.col(1) = place;
+    for (const char* engine : {"general", "textbook", "textbook-quad"}) {
+      const Simulation simulation = make_simulation(scene, start, engine);
+      ASSERT_EQ(simulation.check_invariants().size(), 1U) << engine << ", " << place.transpose();
+      EXPECT_EQ(simulation.check_invariants().front(), "disk 1: " + fault) << engine << ", " << place.transpose();
+    }
+  }
+}
+
+TEST(Verify, AStartThatTouchesAnObstacleToRoundingIsNoFault) {
+  // The first stays where decimal digits have put it until it is hit.
+  Scene scene =
+      scene_of_placed(box_of(8.0, 8.0, Boundary::walls), {{{4.0, 2.5000000001}, {0.0, 0.0}}, {{2.0, 2.0}, {0.25, 1.0}}});
+  scene.effects.obstacles = {SegmentObstacle{{1.0, 3.0}, {7.0, 3.0}}};
+  scene.run.time = 3.0;
+  for (const char* engine : {"general", "textbook"}) {
+    Simulation simulation = make_simulation(scene, engine);
+    RunHooks hooks;
+    hooks.verify_every = 1;
+    const RunResult result = run_schedule(simulation, hooks);
+    EXPECT_EQ(result.stopped, StopReason::time) << engine;
+    EXPECT_TRUE(result.faults.empty()) << engine << ": " << result.faults.front();
+    EXPECT_FALSE(simulation.check_invariants().empty()) << engine << ": nothing has moved it";
   }
 }
 
