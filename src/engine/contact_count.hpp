@@ -10,8 +10,8 @@
 
 namespace carom {
 
-/// A disk that reaches beyond a wall by at most this part of its radius may have begun there: the check of a scene takes half of
-/// it for the rounding of decimal input.
+/// A disk that reaches beyond a wall by at most this part of its radius, or into an obstacle by this part of their contact
+/// distance, may have begun there: the check of a scene takes half of it or less for the rounding of decimal input.
 inline constexpr double touches_a_wall = 4e-9;
 
 namespace detail {
