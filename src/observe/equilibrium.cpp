@@ -56,16 +56,11 @@ bool keeps_set_of_speeds(const Effects& effects) {
 
 bool keeps_turning(const Scene& scene) {
   return scene.box.is_circle && scene.effects.collision.rule == CollisionRule::specular &&
-         std::ranges::all_of(detail::all_effects(), [&](const detail::EffectTraits& effect) {
-           return effect.conserves_angular_momentum || !effect.acts(scene.effects);
-         });
+         detail::all_acting(scene.effects, &detail::EffectTraits::conserves_angular_momentum);
 }
 
 bool keeps_energy_of_positions(const Effects& effects) {
-  const auto depends_on_disks = [&](const detail::EffectTraits& effect) {  // a piston's energy depends on its own place alone
-    return effect.has_potential_energy && effect.name != "pistons" && effect.acts(effects);
-  };
-  return std::ranges::any_of(detail::all_effects(), depends_on_disks) && detail::conserve_energy(effects);
+  return detail::any_acting(effects, &detail::EffectTraits::has_energy_of_disk_positions) && detail::conserve_energy(effects);
 }
 
 }  // namespace

@@ -79,16 +79,12 @@ std::string absent(const Effects& effects) {
 }
 
 std::string conserved(const Box& box, const Effects& effects) {
-  using detail::EffectTraits;
-  const auto all_conserve = [&](bool EffectTraits::*trait) {
-    return std::ranges::none_of(detail::all_effects(),
-                                [&](const EffectTraits& effect) { return !(effect.*trait) && effect.acts(effects); });
-  };
   const bool x = conserves_momentum(box, effects, 0), y = conserves_momentum(box, effects, 1);
   std::vector<std::string_view> names;
   if (detail::conserve_energy(effects)) names.emplace_back("energy");
   if (x || y) names.emplace_back(x && y ? "momentum" : x ? "momentum along x" : "momentum along y");
-  if (effects.collision.rule == CollisionRule::specular && all_conserve(&EffectTraits::conserves_angular_momentum))
+  if (effects.collision.rule == CollisionRule::specular &&
+      detail::all_acting(effects, &detail::EffectTraits::conserves_angular_momentum))
     names.emplace_back(box.is_circle ? "angular momentum about the centre" : "angular momentum in collisions of disks");
   return names.empty() ? "nothing" : fmt::format("{}", fmt::join(names, ", "));
 }

@@ -87,6 +87,7 @@ std::vector<EffectTraits> make_table() {
        .acts = [](const Effects& e) { return e.collision.roughness.value_or(-1.0) != -1.0; },
        .take = take_of_collision<&Collision::roughness>,
        .conserves_energy = false,
+       .conserves_energy_at_its_value = [](const Effects& e) { return e.collision.roughness == 1.0; },  // perfectly rough
        .lets_temperature_fluctuate = true,
        .bytes_per_disk = 8,
        .why_no_transport = "rough disks carry momentum and heat in their spin; remove roughness"},
@@ -110,6 +111,7 @@ std::vector<EffectTraits> make_table() {
            },
        .conserves_angular_momentum = false,
        .has_potential_energy = true,
+       .has_energy_of_disk_positions = true,
        .only_varies_density = true,
        .runs_by_fixed_steps = true,
        .bends_paths = true,
@@ -347,6 +349,7 @@ std::vector<EffectTraits> make_table() {
            },
        .excludes = {{"growth"}},
        .has_potential_energy = true,
+       .has_energy_of_disk_positions = true,
        .lets_temperature_fluctuate = true,
        .bytes_per_disk = 24,
        .why_no_path = "speeds change at the edges of wells",
@@ -371,6 +374,7 @@ std::vector<EffectTraits> make_table() {
            },
        .excludes = {{"growth"}, {"square_well", true}},
        .has_potential_energy = true,
+       .has_energy_of_disk_positions = true,
        .lets_temperature_fluctuate = true,
        .bytes_per_disk = 24,
        .why_no_path = "speeds change at the edges of steps",
@@ -446,6 +450,10 @@ const EffectTraits* first_acting(const Effects& effects, bool EffectTraits::*tra
   return nullptr;
 }
 
+bool all_acting(const Effects& effects, bool EffectTraits::*trait) {
+  return std::ranges::all_of(all_effects(), [&](const EffectTraits& effect) { return effect.*trait || !effect.acts(effects); });
+}
+
 bool any_present(const Effects& effects, bool EffectTraits::*trait) {
   return std::ranges::any_of(all_effects(),
                              [&](const EffectTraits& effect) { return effect.*trait && effect.is_present(effects); });
@@ -464,9 +472,9 @@ std::string_view first_reason(const Effects& effects, std::string_view EffectTra
 }
 
 bool conserve_energy(const Effects& effects) {
-  return std::ranges::none_of(all_effects(), [&](const EffectTraits& effect) {
-    const bool is_perfect = effect.name == "roughness" && effects.collision.roughness == 1.0;
-    return !effect.conserves_energy && !is_perfect && effect.acts(effects);
+  return std::ranges::all_of(all_effects(), [&](const EffectTraits& effect) {
+    return effect.conserves_energy || !effect.acts(effects) ||
+           (effect.conserves_energy_at_its_value != nullptr && effect.conserves_energy_at_its_value(effects));
   });
 }
 

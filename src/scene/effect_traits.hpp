@@ -51,14 +51,17 @@ struct EffectTraits {
       nullptr;  ///< what it does, with its numbers; null where the words on collision or walls contain it
   std::vector<Exclusion> excludes = {};  ///< effects with which it cannot be combined
 
-  bool conserves_energy = true;             ///< conserves the energy of disks and pistons together
-  bool conserves_momentum = true;           ///< conserves the total momentum of the disks along a periodic axis
-  bool thermalises_centre_of_mass = false;  ///< exchanges momentum at random: motion of the centre of mass is heat
-  bool conserves_angular_momentum = true;   ///< of orbits and spins together, in collisions of disks
-  bool has_potential_energy = false;        ///< energy may be stored otherwise than in motion
-  bool keeps_speeds = false;                ///< changes the directions of velocities alone
-  bool only_varies_density = false;         ///< in equilibrium nothing but the density is other than without it: no velocity is
-  bool runs_by_fixed_steps = false;         ///< src/stepper has it
+  bool conserves_energy = true;  ///< conserves the energy of disks and pistons together
+  bool (*conserves_energy_at_its_value)(const Effects&) =
+      nullptr;  ///< conserves it all the same at the value that it has; null for an effect that does so at no value
+  bool conserves_momentum = true;             ///< conserves the total momentum of the disks along a periodic axis
+  bool thermalises_centre_of_mass = false;    ///< exchanges momentum at random: motion of the centre of mass is heat
+  bool conserves_angular_momentum = true;     ///< of orbits and spins together, in collisions of disks
+  bool has_potential_energy = false;          ///< energy may be stored otherwise than in motion
+  bool has_energy_of_disk_positions = false;  ///< and how much of it depends on where the disks are
+  bool keeps_speeds = false;                  ///< changes the directions of velocities alone
+  bool only_varies_density = false;           ///< in equilibrium nothing but the density is other than without it: no velocity is
+  bool runs_by_fixed_steps = false;           ///< src/stepper has it
   bool changes_radii = false;
   bool lets_temperature_fluctuate = false;  ///< kinetic energy is exchanged with a bath, spins or wells
   bool changes_velocities_in_flight =
@@ -91,6 +94,9 @@ struct EffectTraits {
   return first_acting(effects, trait) != nullptr;
 }
 
+/// Returns whether every effect that acts has a trait; true where none acts.
+[[nodiscard]] bool all_acting(const Effects& effects, bool EffectTraits::*trait);
+
 /// Returns whether a scene names an effect that has a trait, at whatever value.
 [[nodiscard]] bool any_present(const Effects& effects, bool EffectTraits::*trait);
 
@@ -103,7 +109,7 @@ void set_numbers(Effects& effects, const EffectTraits& effect, double EffectNumb
 [[nodiscard]] std::string_view first_reason(const Effects& effects, std::string_view EffectTraits::*reason,
                                             bool EffectTraits::*passed_over = nullptr);
 
-/// Returns whether no effect that acts gives or takes energy of disks and pistons. Collisions of perfectly rough disks take none.
+/// Returns whether no effect that acts, at the value that it has, gives or takes energy of disks and pistons.
 [[nodiscard]] bool conserve_energy(const Effects& effects);
 
 /// The titles of the effects whose table has a key, "[growth] or [shear]"; empty where none has.

@@ -82,6 +82,30 @@ TEST(EffectTraits, TellsTheFirstThatActs) {
   EXPECT_TRUE(detail::any_acting(effects, &EffectTraits::draws_random_numbers));
 }
 
+TEST(EffectTraits, TellsWhetherAllThatActHaveOne) {
+  Effects effects;
+  EXPECT_TRUE(detail::all_acting(effects, &EffectTraits::draws_random_numbers)) << "none acts";
+  effects.thermostat = Thermostat{1.0, 0.5};
+  EXPECT_TRUE(detail::all_acting(effects, &EffectTraits::draws_random_numbers));
+  effects.gravity = Gravity{{0.0, 0.0}};
+  EXPECT_TRUE(detail::all_acting(effects, &EffectTraits::draws_random_numbers)) << "no weight does not act";
+  effects.gravity = Gravity{{0.0, -1.0}};
+  EXPECT_FALSE(detail::all_acting(effects, &EffectTraits::draws_random_numbers));
+}
+
+TEST(EffectTraits, TellsWhetherEnergyIsConservedAtTheValuesThatThereAre) {
+  Effects effects;
+  EXPECT_TRUE(detail::conserve_energy(effects));
+  effects.collision.roughness = 1.0;
+  EXPECT_TRUE(detail::conserve_energy(effects)) << "perfectly rough";
+  effects.collision.restitution = 0.9;
+  EXPECT_FALSE(detail::conserve_energy(effects));
+  effects.collision.restitution = 1.0;
+  EXPECT_TRUE(detail::conserve_energy(effects));
+  effects.collision.roughness = 0.5;
+  EXPECT_FALSE(detail::conserve_energy(effects));
+}
+
 TEST(EffectTraits, PassesOverEffectsWithATrait) {
   Effects effects;
   effects.obstacles = {DiskObstacle{{0.0, 0.0}, 0.5}};
