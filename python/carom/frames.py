@@ -132,6 +132,22 @@ def _unpickled(*arguments: Any) -> State:
     return State._of(_core.State(*arguments))
 
 
+def state_of_frame(
+    positions: Floats,
+    velocities: Floats | None,
+    images: Integers | None,
+    spins: Floats | None,
+    time: float,
+    scale: float,
+    walls: Floats,
+    shear_displacement: float,
+) -> State:
+    """Returns the state of one frame. `walls` has shape (4, 2), and is not a number where no wall moves."""
+    moving = [] if np.isnan(walls[0, 0]) else [(float(place), float(velocity)) for place, velocity in walls]
+    rows = (positions, velocities, images, spins)
+    return State._of(_core.State(*rows, float(time), float(scale), moving, shear_displacement=float(shear_displacement)))
+
+
 class Frames:
     """States at equal distances in time. All arrays begin with the axis of frames, F of them, and are read-only.
 
@@ -155,7 +171,9 @@ class Frames:
         velocities: Floats | None,
         images: Integers | None,
         spins: Floats | None,
+        walls: Floats,
         scale: Floats,
+        shear_displacement: Floats,
         collisions: npt.NDArray[np.uint64],
         virial: Floats,
         radii: Floats,
@@ -169,6 +187,8 @@ class Frames:
         self._velocities = velocities
         self._images = images
         self._spins = spins
+        self._walls = walls
+        self._shear_displacement = shear_displacement
         self.scale = scale
         self.collisions = collisions
         self.virial = virial
@@ -223,10 +243,15 @@ class Frames:
         def row(array: Any) -> Any:
             return None if array is None else np.ascontiguousarray(array[k])
 
-        return State._of(
-            _core.State(
-                row(self.positions), row(self._velocities), row(self._images), row(self._spins), float(self.time[k]), float(self.scale[k])
-            )
+        return state_of_frame(
+            row(self.positions),
+            row(self._velocities),
+            row(self._images),
+            row(self._spins),
+            self.time[k],
+            self.scale[k],
+            self._walls[k],
+            self._shear_displacement[k],
         )
 
     @property

@@ -411,14 +411,16 @@ def _result(scene: Scene, directory: Path | None, parts: tuple[Any, ...]) -> Res
         warnings.warn(remark, stacklevel=3)
     frames = None
     if sampled is not None:
-        times, positions, velocities, images, spins, scale, collisions, virial = sampled
+        times, positions, velocities, images, spins, walls, scale, shear_displacement, collisions, virial = sampled
         frames = Frames(
             time=times,
             positions=positions,
             velocities=velocities,
             images=images if any(scene.periodic) else None,
             spins=spins if spins.shape[1] else None,
+            walls=walls,
             scale=scale,
+            shear_displacement=shear_displacement,
             collisions=collisions,
             virial=virial,
             radii=np.array(radii),
@@ -540,7 +542,7 @@ class Run:
         dt = self.summary.get("dt")
         if self.summary["stopped"] == "interrupted":
             raise ValueError(f"{self.directory}: this run was interrupted, and another one would not end there")
-        name = self.summary["engine"]
+        name = self.summary.get("engine_asked", self.summary["engine"])
         with tempfile.TemporaryDirectory(prefix="carom-") as place, warnings.catch_warnings():
             warnings.simplefilter("ignore")
             again = Path(place) / "again"

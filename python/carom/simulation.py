@@ -18,7 +18,7 @@ from carom._errors import OutputError, SceneError, StoppedEarly
 from carom._events import Event, events_in
 from carom._progress import Progress, reporting
 from carom._toml import scene_text
-from carom.frames import Frames, State
+from carom.frames import Frames, State, state_of_frame
 from carom.scene import Scene, SceneLike, as_scene, scene_of_parts
 
 if TYPE_CHECKING:
@@ -307,7 +307,7 @@ class Simulation:
         """Forgets the state, before it changes."""
         self._state = None
         if self._core.changes_to_come > 0:
-            self._now = None
+            self._now = self._disks = None
 
     def run(self, duration: float, *, progress: Progress | None = None) -> Stop:
         """Goes on for `duration`. Repeated calls add up with rounding; `sample()` has an exact grid."""
@@ -352,7 +352,7 @@ class Simulation:
         """Goes to the next event up to `until`, and returns it: a collision with a disk, a wall or an obstacle, the edge of a square
         well, or a new velocity by the thermostat. Returns None where there is none; the simulation then stands at `until`."""
         end = until if until is _FOREVER else real(until, "until")
-        self._state = None
+        self._moved()
         event = self._core.step(end)
         return None if event is None else _new(Event, event)
 
@@ -632,15 +632,17 @@ class _Room:
     def __init__(self, simulation: Simulation, count: int, positions: bool, velocities: bool) -> None:
         disks = simulation.count
         periodic = any(simulation.scene.periodic)
-        spins = len(simulation.spins)
-        per_frame = 16 * disks * (positions + velocities + (positions and periodic)) + 8 * spins + 32
+        may_become_rough = "roughness" in str(simulation.scene.to_dict().get("changes", ""))
+        spins = disks if len(simulation.spins) or may_become_rough else 0
+        per_frame = 16 * disks * (positions + velocities + (positions and periodic)) + 8 * spins + 104
         memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
         if count * per_frame > memory:
             raise MemoryError(
                 f"{count:,} frames of {disks:,} disks take {count * per_frame / 1e9:.2g} GB; iterate over sim.frames(dt, until), or "
                 "give a stride"
             )
-        self.time, self.scale, self.virial = (np.empty(count) for _ in range(3))
+        self.time, self.scale, self.shear_displacement, self.virial = (np.empty(count) for _ in range(4))
+        self.walls = np.empty((count, 4, 2))
         self.collisions = np.empty(count, np.uint64)
         self.positions = np.empty((count, disks, 2)) if positions else None
         self.velocities = np.empty((count, disks, 2)) if velocities else None
@@ -654,8 +656,16 @@ class _Room:
         def row(array: Any) -> Any:
             return None if array is None else array[0]
 
-        rows = row(self.positions), row(self.velocities), row(self.images), row(self.spins)
-        return State._of(_core.State(*rows, float(self.time[0]), float(self.scale[0])))
+        return state_of_frame(
+            row(self.positions),
+            row(self.velocities),
+            row(self.images),
+            row(self.spins),
+            self.time[0],
+            self.scale[0],
+            self.walls[0],
+            self.shear_displacement[0],
+        )
 
     def frames(self, simulation: Simulation, interrupted: bool) -> Frames:
         count = int(self.written[0])
@@ -672,7 +682,9 @@ class _Room:
             velocities=done(self.velocities),
             images=done(self.images),
             spins=done(self.spins),
+            walls=done(self.walls),
             scale=done(self.scale),
+            shear_displacement=done(self.shear_displacement),
             collisions=done(self.collisions),
             virial=done(self.virial),
             radii=simulation.radii,

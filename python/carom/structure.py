@@ -54,8 +54,8 @@ def clusters(scene: SceneLike, state: State, gap: float) -> Table:
         gap: length. The scene format gives it in mean diameters.
 
     Raises:
-        ValueError: where the gap is not >= 0 and finite, or longer than a periodic box; where the state is not one of these disks, or a
-            centre is outside the box.
+        ValueError: where the gap is not >= 0 and finite, or longer than a periodic box; where the scene shears its disks; where the state
+            is not one of these disks, or a centre is outside the box.
     """
     gap = real(gap, "gap")
     if not 0.0 <= gap < np.inf:

@@ -1,12 +1,16 @@
 #pragma once
 // Memory that numpy and the library share, and the exceptions and interruptions of calls that take long.
 
+#include <carom/state.hpp>
+
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <initializer_list>
+#include <limits>
 #include <utility>
 
 namespace carom::python {
@@ -34,6 +38,14 @@ template <class Value, class Holder>
 template <class Value>
 [[nodiscard]] Array<Value> array_within(const Value* values, std::initializer_list<std::size_t> shape, nb::handle owner) {
   return Array<Value>(values, shape.size(), shape.begin(), owner);
+}
+
+/// Writes the positions and velocities of the four walls to `room`, which has room for `numbers_of_walls`; none of them is a
+/// number where no wall moves.
+inline constexpr std::size_t numbers_of_walls = 8;
+inline void write_walls(const State& state, double* room) {
+  if (state.walls.empty()) std::fill_n(room, numbers_of_walls, std::numeric_limits<double>::quiet_NaN());
+  for (const WallState& wall : state.walls) *room++ = wall.position, *room++ = wall.velocity;
 }
 
 /// Takes the lock of the interpreter, and lets pending signals and the caller's `report` raise what they like: KeyboardInterrupt

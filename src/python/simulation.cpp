@@ -54,7 +54,8 @@ struct FrameRoom {
   std::optional<Room<double, nb::shape<-1, -1, 2>>> positions, velocities;
   std::optional<Room<std::int64_t, nb::shape<-1, -1, 2>>> images;
   std::optional<Room<double, nb::shape<-1, -1>>> spins;
-  Room<double, nb::ndim<1>> scale, virial;
+  Room<double, nb::shape<-1, 4, 2>> walls;  ///< positions and velocities; not a number where none moves
+  Room<double, nb::ndim<1>> scale, shear_displacement, virial;
   Room<std::uint64_t, nb::ndim<1>> collisions;
   Room<std::int64_t, nb::ndim<1>> written;  ///< one number: frames so far
 
@@ -65,12 +66,17 @@ struct FrameRoom {
     };
     time.data()[frame] = state.time;
     scale.data()[frame] = state.scale;
+    shear_displacement.data()[frame] = state.shear_displacement;
+    write_walls(state, walls.data() + frame * numbers_of_walls);
     virial.data()[frame] = totals.virial;
     collisions.data()[frame] = totals.pair;
     copy(state.positions, positions);
     copy(state.velocities, velocities);
     copy(state.images, images);
-    copy(state.spins, spins);
+    if (spins && state.spins.size() == 0)  // a change has made the disks smooth, or will make them rough
+      std::fill_n(spins->data() + frame * spins->shape(1), spins->shape(1), 0.0);
+    else
+      copy(state.spins, spins);
     ++written.data()[0];
   }
 };
@@ -358,10 +364,12 @@ void add_simulation(nb::module_& module) {
              const Room<double, nb::ndim<1>>& time, const std::optional<Room<double, nb::shape<-1, -1, 2>>>& positions,
              const std::optional<Room<double, nb::shape<-1, -1, 2>>>& velocities,
              const std::optional<Room<std::int64_t, nb::shape<-1, -1, 2>>>& images,
-             const std::optional<Room<double, nb::shape<-1, -1>>>& spins, const Room<double, nb::ndim<1>>& scale,
+             const std::optional<Room<double, nb::shape<-1, -1>>>& spins, const Room<double, nb::shape<-1, 4, 2>>& walls,
+             const Room<double, nb::ndim<1>>& scale, const Room<double, nb::ndim<1>>& shear_displacement,
              const Room<double, nb::ndim<1>>& virial, const Room<std::uint64_t, nb::ndim<1>>& collisions,
              const Room<std::int64_t, nb::ndim<1>>& written, const nb::object& report) {
-            const FrameRoom room{time, positions, velocities, images, spins, scale, virial, collisions, written};
+            const FrameRoom room{time,  positions,          velocities, images,     spins,  walls,
+                                 scale, shear_displacement, virial,     collisions, written};
             const bool whole = positions || images || spins;
             const SamplingGrid grid{
                 .step = step,
@@ -373,7 +381,8 @@ void add_simulation(nb::module_& module) {
           },
           nb::arg("until"), nb::arg("step"), nb::arg("first"), nb::arg("stride"), nb::arg("most"), nb::arg("time"),
           nb::arg("positions").none(), nb::arg("velocities").none(), nb::arg("images").none(), nb::arg("spins").none(),
-          nb::arg("scale"), nb::arg("virial"), nb::arg("collisions"), nb::arg("written"), nb::arg("report").none())
+          nb::arg("walls"), nb::arg("scale"), nb::arg("shear_displacement"), nb::arg("virial"), nb::arg("collisions"),
+          nb::arg("written"), nb::arg("report").none())
       .def(
           "step",
           [](Running& self, double until) -> std::optional<EventTuple> {

@@ -67,6 +67,8 @@ using Clusters = std::tuple<Array<std::int64_t>, Array<std::int64_t>, Array<std:
 /// Returns the number of each disk's cluster, that cluster's size, and whether it percolates along x and along y. `gap` is a
 /// length.
 Clusters clusters(const Scene& scene, const State& given, double gap) {
+  if (scene.effects.shear_rate() != 0.0)
+    throw std::invalid_argument("clusters: under [shear] images slide past each other; clusters are those of a fluid at rest");
   const Start start = placed(scene, given);
   const std::vector<double> radii = radii_of(start.disks, start.state);
   for (int axis = 0; axis < 2; ++axis)

@@ -52,6 +52,31 @@ def test_frames_one_by_one_are_those_of_sample(gas: carom.Scene) -> None:
     assert [state.time for state in frames] == frames.time.tolist()
 
 
+@pytest.mark.parametrize(
+    "tables",
+    [{"shear": {"rate": 0.3}}, {"box": GAS["box"] | {"boundary": "walls"}, "walls": {"left": {"velocity": 0.1}, "top": {"velocity": -0.05}}}],
+    ids=["images that slide", "walls that move"],
+)
+def test_a_frame_knows_where_images_and_walls_are(tables: dict[str, object]) -> None:
+    scene = carom.Scene(GAS | tables).set({"run.time": 2.0})
+    sim = carom.Simulation(scene)
+    sampled = sim.sample(0.25, until=2.0)
+    one_by_one = list(carom.Simulation(scene).frames(0.25, until=2.0))
+    kept = carom.run(scene, frames=True).frames
+    assert kept is not None
+    of_state = carom.voronoi(scene, sim.state)["area"]
+    assert of_state.sum() == pytest.approx(24.0 if "shear" in tables else (6.0 - 0.2) * (4.0 - 0.1))
+    go_on = carom.Simulation(scene, state=sim.state)
+    go_on.run_until(1.0)
+    for state in (sampled[-1], one_by_one[-1], kept[-1]):
+        assert state.walls == sim.state.walls
+        assert carom.voronoi(scene, state)["area"] == pytest.approx(of_state, rel=1e-12)
+        again = carom.Simulation(scene, state=state)
+        again.run_until(1.0)
+        assert again.state_hash == go_on.state_hash
+    assert carom.voronoi(scene, sampled[3])["area"].sum() == pytest.approx(24.0 if "shear" in tables else (6.0 - 0.075) * (4.0 - 0.0375))
+
+
 def test_stride_keeps_every_so_manieth_sample(gas: carom.Scene) -> None:
     frames = carom.Simulation(gas).sample(0.25, until=5.0)
     third = carom.Simulation(gas).sample(0.25, until=5.0, stride=3)

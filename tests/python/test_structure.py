@@ -68,6 +68,8 @@ def test_a_cell_at_a_wall_has_no_sixfold_order(gas: carom.Scene) -> None:
         (lambda gas, state: carom.voronoi(gas, carom.State(np.zeros((12, 2)))), ValueError, "two disks have the same centre, which has no Voronoi cell"),
         (lambda gas, state: carom.clusters(gas, state, -0.1), ValueError, "gap=-0.1: a gap between surfaces is >= 0 and finite"),
         (lambda gas, state: carom.clusters(gas, state, float("nan")), ValueError, "gap=nan: a gap"),
+        (lambda gas, state: carom.clusters(gas, state, 4.5), ValueError, "4 long in y, so that every disk would be near its own image; make the gap smaller"),
+        (lambda gas, state: carom.clusters(gas.set({"shear.rate": 0.5}), state, 0.1), ValueError, "under .shear. images slide past each other"),
         (lambda gas, state: carom.clusters(gas, state, "wide"), TypeError, "gap is 'wide'; give a number"),
     ],
 )

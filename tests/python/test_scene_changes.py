@@ -1,0 +1,50 @@
+"""What Python knows of a simulation whose scene changes while it runs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import GAS
+
+import carom
+
+
+def changing(tables: dict[str, object], change: str) -> carom.Scene:
+    """The gas with these tables, until `change` is made at time 1."""
+    return carom.Scene(GAS | tables | {"changes": [{"time": 1.0, "set": [change]}]}).set({"run.time": 2.0})
+
+
+def test_radii_are_those_of_the_engine_when_disks_no_longer_grow() -> None:
+    sim = carom.Simulation(changing({"growth": {"rate": 0.1}}, "growth.rate=0"))
+    assert sim.radii[0] == 0.4
+    sim.run_until(2.0)
+    assert sim.radii[0] * sim.state.scale == pytest.approx(0.44, rel=1e-12)
+
+
+@pytest.mark.parametrize("go_on", [lambda sim: list(sim.events(2.0)), lambda sim: sim.run_until(2.0)])
+def test_the_scene_is_the_one_that_acts(go_on) -> None:
+    sim = carom.Simulation(changing({}, "collision.restitution=0.5"))
+    assert "restitution" not in sim.scene.to_dict()["collision"]
+    go_on(sim)
+    assert sim.scene.to_dict()["collision"]["restitution"] == 0.5
+
+
+@pytest.mark.parametrize(("before", "change", "spinning"), [(0.5, "collision.roughness=-1", [1, 2]), (None, "collision.roughness=0.5", [3, 4])])
+def test_spins_are_zero_while_disks_are_smooth(before: float | None, change: str, spinning: list[int]) -> None:
+    rough = {} if before is None else {"collision": {"rule": "specular", "roughness": before}}
+    scene = changing(rough, change)
+    frames = carom.Simulation(scene).sample(0.5, 2.0)
+    assert frames.spins.shape == (5, 12)
+    assert list(np.flatnonzero(np.any(frames.spins != 0.0, axis=1))) == spinning
+    kept = carom.run(scene.set({"run.sample_every": 0.5}), frames=True).frames
+    assert np.array_equal(kept.spins, frames.spins)
+
+
+@pytest.mark.parametrize(("tables", "change"), [({}, "collision.roughness=0.5"), ({"growth": {"rate": 0.05}}, "growth.rate=0")])
+def test_a_run_in_which_the_engine_changed_verifies(tables: dict[str, object], change: str, tmp_path: Path) -> None:
+    carom.run(changing(tables, change), out=tmp_path / "run")
+    run = carom.open_run(tmp_path / "run")
+    assert run.summary["engine_asked"] == "auto"
+    assert run.verify() == []
