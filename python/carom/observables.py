@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from carom import _core
-from carom._arguments import numbers
+from carom._arguments import numbers, shown, words
 from carom.frames import State
 from carom.results import Number, Table
 
@@ -128,7 +128,11 @@ class Observable:
 
     def _finish(self, time: float, collisions: int, virial: float) -> tuple[list[Any], list[Any]]:
         scalars, tables = [], []
-        for name, found in self.finish(time, collisions, virial).items():
+        results = self.finish(time, collisions, virial)
+        if not isinstance(results, Mapping):
+            raise TypeError(f"{self.name}.finish() returned {shown(results)}; give a mapping of names to Numbers, plain numbers and Tables")
+        for name, found in results.items():
+            words(name, f"a name of what {self.name}.finish() returned")
             if isinstance(found, Table):
                 columns = [(c, found.units.get(c, ""), [float(v) for v in found[c]]) for c in found]
                 tables.append((name, columns))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import threading
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -150,18 +151,30 @@ def _with_observables(scene: Scene, observables: Observables | None) -> tuple[Sc
     if not isinstance(observables, Iterable):
         raise TypeError(f"observables are {shown(observables)}; give names such as \"pressure\", a mapping of them, or carom.Observables")
     settings = dict(observables) if isinstance(observables, Mapping) else {o: True for o in observables if isinstance(o, str)}
-    own = [] if isinstance(observables, Mapping) else _own([o for o in observables if not isinstance(o, str)])
+    listed = [] if isinstance(observables, Mapping) else [o for o in observables if not isinstance(o, str)]
     changes = {f"observe.{words(name, 'an observable')}": value for name, value in settings.items()}
-    return (scene.set(changes) if changes else scene), own
+    given = scene.set(changes) if changes else scene
+    return given, _own(listed, given._core.observables)
 
 
-def _own(observables: Iterable[Any]) -> list[Observable]:
+def _own(observables: Iterable[Any], taken: Iterable[str] = ()) -> list[Observable]:
+    """Returns the observables as a list. Raises TypeError or ValueError for what is none, and for two of one name; `taken` are the names
+    of the scene's."""
     if not isinstance(observables, Iterable):
         raise TypeError(f"observables are {shown(observables)}; give a list of carom.Observables")
     own = list(observables)
+    names = set(taken)
     for observable in own:
         if not isinstance(observable, Observable):
             raise TypeError(f"{shown(observable)} is no observable; give a name such as \"pressure\", or a carom.Observable")
+        name = words(observable.name, "the name of an observable")
+        if not re.fullmatch(r"[A-Za-z0-9_]+", name):
+            raise ValueError(f"an observable has the name {shown(name)}; take letters, digits and underscores")
+        if name in names:
+            raise ValueError(f"two observables have the name {shown(name)}, and results are by name; give one of them another")
+        names.add(name)
+        if not 0.0 <= real(observable.step, f"the step of {name}") < math.inf:
+            raise ValueError(f"the step of {name} is {shown(observable.step)}; give a time, or 0 where it takes no samples")
     return own
 
 

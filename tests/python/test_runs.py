@@ -155,6 +155,29 @@ def test_what_an_observable_raises_comes_out_of_the_run(gas, tmp_path):
         carom.run(gas, observables=[Wrong()])
 
 
+@pytest.mark.parametrize(
+    ("attributes", "kind", "sentence"),
+    [
+        ({"name": 5}, TypeError, "the name of an observable is 5; give a string"),
+        ({"name": "a b"}, ValueError, "has the name 'a b'; take letters, digits and underscores"),
+        ({"name": "pressure"}, ValueError, "two observables have the name 'pressure'"),
+        ({"name": "other"}, ValueError, "two observables have the name 'other'"),
+        ({"step": "x"}, TypeError, "the step of own is 'x'; give a number"),
+        ({"step": -1.0}, ValueError, "the step of own is -1.0; give a time, or 0"),
+        ({"step": float("nan")}, ValueError, "the step of own is nan"),
+        ({"finish": lambda *_: None}, TypeError, r"own.finish\(\) returned None; give a mapping"),
+        ({"finish": lambda *_: {1: 2.0}}, TypeError, r"a name of what own.finish\(\) returned is 1; give a string"),
+    ],
+)
+def test_an_observable_that_makes_no_sense_is_refused(gas: carom.Scene, attributes, kind, sentence: str) -> None:
+    own, other = carom.Observable(), carom.Observable()
+    own.name, other.name = "own", "other"
+    for name, value in attributes.items():
+        setattr(own, name, value)
+    with pytest.raises(kind, match=sentence):
+        carom.run(gas, observables=[other, own, "pressure"])
+
+
 def test_ctrl_c_completes_the_files_and_a_checkpoint_goes_on(tmp_path, gas):
     long = gas.set({"run.time": 1e6, "run.sample_every": 1e3})
     timer = threading.Timer(0.4, os.kill, (os.getpid(), signal.SIGINT))
