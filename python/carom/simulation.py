@@ -405,8 +405,8 @@ class Simulation:
         """
         dt, until, stride = real(dt, "dt"), real(until, "until"), whole(stride, "stride", least=1)
         first, count = self._sample_range(dt, until, stride)
-        room = _Room(self, count, bool(positions), bool(velocities))
-        begin = self.time
+        room = _Room(self, count, bool(positions), bool(velocities), self.radii)
+        begin, radii = self.time, self.radii
         reason: str | None = None
         with reporting(progress, "sample") as report:
             tell = None if report is None else lambda now: report(_fraction(begin, now, until))
@@ -414,7 +414,7 @@ class Simulation:
             try:
                 reason = self._core.run_sampled(until, dt, first, stride, _NONE, **vars(room), report=tell)
             finally:
-                self._trajectory = room.frames(self, interrupted=reason is None)
+                self._trajectory = room.frames(self, radii, interrupted=reason is None)
         as_stop(reason, self.time)
         return self._trajectory
 
@@ -627,9 +627,10 @@ def _fraction(begin: float, now: float, end: float) -> float:
 
 
 class _Room:
-    """Memory for frames, into which the engine writes: the arrays that `run_sampled` takes by name."""
+    """Memory for frames, into which the engine writes: the arrays that `run_sampled` takes by name. Scales are those of `radii`, or of
+    the radii at each frame."""
 
-    def __init__(self, simulation: Simulation, count: int, positions: bool, velocities: bool) -> None:
+    def __init__(self, simulation: Simulation, count: int, positions: bool, velocities: bool, radii: Floats | None = None) -> None:
         disks = simulation.count
         periodic = any(simulation.scene.periodic)
         may_become_rough = "roughness" in str(simulation.scene.to_dict().get("changes", ""))
@@ -649,6 +650,7 @@ class _Room:
         self.images = np.empty((count, disks, 2), np.int64) if positions and periodic else None
         self.spins = np.empty((count, spins)) if spins else None
         self.written = np.zeros(1, np.int64)
+        self.first_radius = None if radii is None else float(radii[0])
 
     def state(self) -> State:
         """Returns the first frame, which has memory of its own."""
@@ -667,7 +669,7 @@ class _Room:
             self.shear_displacement[0],
         )
 
-    def frames(self, simulation: Simulation, interrupted: bool) -> Frames:
+    def frames(self, simulation: Simulation, radii: Floats, interrupted: bool) -> Frames:
         count = int(self.written[0])
 
         def done(array: Any) -> Any:
@@ -687,7 +689,7 @@ class _Room:
             shear_displacement=done(self.shear_displacement),
             collisions=done(self.collisions),
             virial=done(self.virial),
-            radii=simulation.radii,
+            radii=radii,
             species=simulation.species,
             scene=simulation.scene,
             state_hash=simulation.state_hash,

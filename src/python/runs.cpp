@@ -10,6 +10,7 @@
 #include "runner/resumed_run.hpp"
 #include "runner/run_threads.hpp"
 #include "runner/runner.hpp"
+#include "simulation/start.hpp"
 #include "studies/analysis/analysis.hpp"
 
 #include <carom/io/run_reader.hpp>
@@ -124,7 +125,7 @@ class PythonRun {
     return nb::borrow<AnyTuple>(nb::make_tuple(summary_json(outcome.report, runner_.provenance()),
                                                tuples_of(outcome.report.observables), outcome.report.stopped_disks, outcome.files,
                                                frames, simulation_.state(), interrupted_, runner_.saved_now(), warnings_,
-                                               simulation_.disks().radius, simulation_.disks().species));
+                                               disks_of(simulation_.whole_scene()).radius, simulation_.disks().species));
   }
 
  private:

@@ -59,13 +59,14 @@ struct FrameRoom {
   Room<std::uint64_t, nb::ndim<1>> collisions;
   Room<std::int64_t, nb::ndim<1>> written;  ///< one number: frames so far
 
-  void write(const State& state, const Totals& totals) const {
+  /// Writes a frame. `grown` is the factor by which changes have made the radii larger since those that the scale is of.
+  void write(const State& state, const Totals& totals, double grown) const {
     const auto frame = static_cast<std::size_t>(written.data()[0]);
     const auto copy = [&](const auto& matrix, const auto& room) {
       if (room) std::copy_n(matrix.data(), matrix.size(), room->data() + frame * static_cast<std::size_t>(matrix.size()));
     };
     time.data()[frame] = state.time;
-    scale.data()[frame] = state.scale;
+    scale.data()[frame] = state.scale * grown;
     shear_displacement.data()[frame] = state.shear_displacement;
     write_walls(state, walls.data() + frame * numbers_of_walls);
     virial.data()[frame] = totals.virial;
@@ -367,22 +368,22 @@ void add_simulation(nb::module_& module) {
              const std::optional<Room<double, nb::shape<-1, -1>>>& spins, const Room<double, nb::shape<-1, 4, 2>>& walls,
              const Room<double, nb::ndim<1>>& scale, const Room<double, nb::ndim<1>>& shear_displacement,
              const Room<double, nb::ndim<1>>& virial, const Room<std::uint64_t, nb::ndim<1>>& collisions,
-             const Room<std::int64_t, nb::ndim<1>>& written, const nb::object& report) {
+             const Room<std::int64_t, nb::ndim<1>>& written, std::optional<double> first_radius, const nb::object& report) {
             const FrameRoom room{time,  positions,          velocities, images,     spins,  walls,
                                  scale, shear_displacement, virial,     collisions, written};
             const bool whole = positions || images || spins;
-            const SamplingGrid grid{
-                .step = step,
-                .sample = [&](std::uint64_t, const State& state, const Totals& totals) { room.write(state, totals); },
-                .velocities_alone = !whole};
             return to_string(self.use_alone([&](Simulation& s) {
+              const auto write = [&](std::uint64_t, const State& state, const Totals& totals) {
+                room.write(state, totals, first_radius ? s.disks().radius.front() / *first_radius : 1.0);
+              };
+              const SamplingGrid grid{.step = step, .sample = write, .velocities_alone = !whole};
               return s.run_sampled(until, grid, limits_of({}, report, s), {.first = first, .stride = stride, .most = most});
             }));
           },
           nb::arg("until"), nb::arg("step"), nb::arg("first"), nb::arg("stride"), nb::arg("most"), nb::arg("time"),
           nb::arg("positions").none(), nb::arg("velocities").none(), nb::arg("images").none(), nb::arg("spins").none(),
           nb::arg("walls"), nb::arg("scale"), nb::arg("shear_displacement"), nb::arg("virial"), nb::arg("collisions"),
-          nb::arg("written"), nb::arg("report").none())
+          nb::arg("written"), nb::arg("first_radius").none(), nb::arg("report").none())
       .def(
           "step",
           [](Running& self, double until) -> std::optional<EventTuple> {

@@ -3,6 +3,7 @@
 #include "core/seconds.hpp"
 #include "core/state_archive.hpp"
 #include "io/partial_file.hpp"
+#include "simulation/start.hpp"
 
 #include <fmt/format.h>
 
@@ -21,6 +22,7 @@ Runner::Runner(Simulation& simulation, const RunDirectory* directory, Provenance
       provenance_(std::move(provenance)),
       options_(std::move(options)),
       from_(from),
+      disks_(disks_of(simulation.whole_scene())),
       measurements_(simulation),
       saved_collisions_(simulation.totals().pair) {
   if (options_.checkpoint_every) plan_ = saving_plan(*options_.checkpoint_every);
@@ -29,7 +31,7 @@ Runner::Runner(Simulation& simulation, const RunDirectory* directory, Provenance
     extended_ = from->facts().finished;
   } else {
     observation_.emplace(simulation_);
-    if (directory_ != nullptr) writer_.emplace(*directory_, scene_, simulation_.disks(), provenance_);
+    if (directory_ != nullptr) writer_.emplace(*directory_, scene_, disks_, provenance_);
   }
   if (options_.observe) options_.observe(*observation_);
 }
@@ -57,8 +59,9 @@ RunResult Runner::simulate(const RunnerHooks& hooks) {
   schedule.sample = [&](std::uint64_t k, const State& state) {
     measurements_.sample(state);
     const Totals totals = simulation_.totals();
-    if (writer_) writer_->sample(k, state, totals);
-    if (hooks.sample) hooks.sample(state, totals);
+    const State& kept = with_scale_of_files(state);
+    if (writer_) writer_->sample(k, kept, totals);
+    if (hooks.sample) hooks.sample(kept, totals);
   };
   if (writer_ && scene_.output.events) schedule.events = [&](std::span<const Event> events) { writer_->events(events); };
   schedule.block = [&](const Progress& progress) { measurements_.block(progress); };
@@ -148,7 +151,17 @@ void Runner::read(const Checkpoint& from) {
       LoadingArchive archive(in);
       archive(start_.emplace());
     });
-  from.read("files", [&](std::istream& in) { writer_.emplace(*directory_, scene_, simulation_.disks(), provenance_, in); });
+  from.read("files", [&](std::istream& in) { writer_.emplace(*directory_, scene_, disks_, provenance_, in); });
+}
+
+/// Files and frames have the radii of the scene and a scale. Where a change has ended the growth of disks, the simulation has
+/// larger radii and the scale 1.
+const State& Runner::with_scale_of_files(const State& state) {
+  const std::vector<double>& now = simulation_.disks().radius;
+  if (now.empty() || now.front() == disks_.radius.front()) return state;
+  rescaled_ = state;
+  rescaled_.scale *= now.front() / disks_.radius.front();
+  return rescaled_;
 }
 
 /// Observables keep the steps that followed from the end which the run began with; from another end others would follow.

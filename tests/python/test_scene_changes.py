@@ -23,6 +23,23 @@ def test_radii_are_those_of_the_engine_when_disks_no_longer_grow() -> None:
     assert sim.radii[0] * sim.state.scale == pytest.approx(0.44, rel=1e-12)
 
 
+def test_radii_of_frames_and_files_are_those_at_each_time(tmp_path: Path) -> None:
+    scene = changing({"growth": {"rate": 0.1}}, "growth.rate=0").set({"run.sample_every": 0.5})
+    expected = [1.0, 1.05, 1.1, 1.1, 1.1]
+    sampled = carom.Simulation(scene).sample(0.5, 2.0)
+    result = carom.run(scene, frames=True, out=tmp_path / "run")
+    assert result.frames is not None
+    for frames in (sampled, result.frames):
+        assert frames.radii[0] == 0.4
+        assert frames.scale == pytest.approx(expected, rel=1e-12)
+    assert [state.scale for state in carom.Simulation(scene).frames(0.5, 2.0)][3:] == [1.0, 1.0]  # of what are radii then
+    run = carom.open_run(tmp_path / "run")
+    assert [run.state(k).scale for k in range(5)] == pytest.approx(expected, rel=1e-12)
+    assert run.summary["growth"]["scale"] == pytest.approx(1.1, rel=1e-12)
+    whole = 12 * np.pi * 0.44**2 / 24.0
+    assert run.summary["growth"]["packing_fraction"] == pytest.approx(whole, rel=1e-12)
+
+
 @pytest.mark.parametrize("go_on", [lambda sim: list(sim.events(2.0)), lambda sim: sim.run_until(2.0)])
 def test_the_scene_is_the_one_that_acts(go_on) -> None:
     sim = carom.Simulation(changing({}, "collision.restitution=0.5"))
