@@ -54,7 +54,7 @@ class Stop(StrEnum):
     GROWN = "grown"  #: the packing fraction or pressure up to which disks were to grow was reached
     AT_REST = "at_rest"  #: drag has stopped the disks
     NO_COLLISIONS = "no_collisions"  #: no pair will ever collide
-    BLOCKED = "blocked"  #: one of the scene's changes could not be made
+    BLOCKED = "blocked"  #: carom.run() could not make one of the scene's changes; a Simulation raises SceneError there
     INVALID_STATE = "invalid_state"  #: a number is not finite, or the engine found a fault in its plan
 
     @property
