@@ -19,37 +19,27 @@ namespace carom {
 
 namespace {
 
-/// Returns the largest speed of a rim by the spin of its disk; 0 where disks are smooth.
-double fastest_rim(const Start& start) {
-  double fastest = 0.0;
-  for (Eigen::Index i = 0; i < start.state.spins.size(); ++i)
-    fastest =
-        std::max(fastest, std::abs(start.state.spins[i]) * start.disks.radius[static_cast<std::size_t>(i)] * start.state.scale);
-  return fastest;
-}
-
-/// Predictions multiply squares of lengths and of speeds, which must neither overflow nor vanish. In collisions rims pass their
-/// speed on to disks.
+/// Predictions multiply squares of lengths and of speeds, which must neither overflow nor vanish.
 void require_resolvable_scale(const Scene& scene, const Start& start) {
   if (start.disks.count() == 0) return;
-  const double speed = start.state.velocities.cwiseAbs().maxCoeff(), fastest = std::max(speed, fastest_rim(start));
+  const double speed = start.state.velocities.cwiseAbs().maxCoeff();
   const double heaviest = *std::max_element(start.disks.mass.begin(), start.disks.mass.end());
-  if (!(heaviest * fastest * static_cast<double>(start.disks.count()) < 1e150))
+  if (!(heaviest * speed * static_cast<double>(start.disks.count()) < 1e150))
     throw detail::scene_error(
         scene, "disks.0",
         fmt::format(
             "the heaviest disk has mass {:g} and the fastest moves at {:g}; the square of their momentum overflows: choose "
             "other units",
-            heaviest, fastest));
-  const double largest = fastest * scene.box.lengths().maxCoeff();
+            heaviest, speed));
+  const double largest = speed * scene.box.lengths().maxCoeff();
   const double smallest = speed * *std::min_element(start.disks.radius.begin(), start.disks.radius.end());
-  if (largest < 1e150 && (speed == 0.0 || smallest > 1e-150)) return;
-  throw detail::scene_error(scene, "disks.0.velocities",
-                            fmt::format("the fastest disk, or its rim, moves at {:g} in a box {:g} wide, and the smallest disk "
-                                        "has radius {:g}; products of speed and "
-                                        "length must lie between 1e-150 and 1e150: choose other units",
-                                        largest < 1e150 ? speed : fastest, scene.box.lengths().maxCoeff(),
-                                        *std::min_element(start.disks.radius.begin(), start.disks.radius.end())));
+  if (speed == 0.0 || (largest < 1e150 && smallest > 1e-150)) return;
+  throw detail::scene_error(
+      scene, "disks.0.velocities",
+      fmt::format(
+          "the fastest disk moves at {:g} in a box {:g} wide, and the smallest disk has radius {:g}; products of speed and "
+          "length must lie between 1e-150 and 1e150: choose other units",
+          speed, scene.box.lengths().maxCoeff(), *std::min_element(start.disks.radius.begin(), start.disks.radius.end())));
 }
 
 /// A disk that just fits between two walls would bounce without end at one instant.

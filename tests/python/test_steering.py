@@ -205,14 +205,3 @@ def test_a_change_that_a_disk_blocks_is_told() -> None:
     assert sim.time == 1.0
     with pytest.warns(carom.StoppedEarly):
         assert carom.run(scene).stopped == "blocked"
-
-
-def test_spins_beyond_what_can_be_computed_with_are_refused(gas: carom.Scene) -> None:
-    sim = carom.Simulation(gas.set({"collision.roughness": 0.5}))
-    hash_before = sim.state_hash
-    for spin in (1e150, 1e200):
-        with pytest.raises(carom.SceneError, match="choose other units"):
-            sim.set_velocities(sim.velocities, spins=np.full(12, spin))
-    assert sim.state_hash == hash_before
-    sim.set_velocities(sim.velocities, spins=np.full(12, 1e3))
-    assert sim.run_until(0.1) is carom.Stop.TIME
