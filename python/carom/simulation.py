@@ -650,7 +650,7 @@ class _Room:
         self.images = np.empty((count, disks, 2), np.int64) if positions and periodic else None
         self.spins = np.empty((count, spins)) if spins else None
         self.written = np.zeros(1, np.int64)
-        self.first_radius = None if radii is None else float(radii[0])
+        self.first_radius = None if radii is None or not len(radii) else float(radii[0])
 
     def state(self) -> State:
         """Returns the first frame, which has memory of its own."""

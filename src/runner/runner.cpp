@@ -22,7 +22,6 @@ Runner::Runner(Simulation& simulation, const RunDirectory* directory, Provenance
       provenance_(std::move(provenance)),
       options_(std::move(options)),
       from_(from),
-      disks_(disks_of(simulation.whole_scene())),
       measurements_(simulation),
       saved_collisions_(simulation.totals().pair) {
   if (options_.checkpoint_every) plan_ = saving_plan(*options_.checkpoint_every);
@@ -31,7 +30,7 @@ Runner::Runner(Simulation& simulation, const RunDirectory* directory, Provenance
     extended_ = from->facts().finished;
   } else {
     observation_.emplace(simulation_);
-    if (directory_ != nullptr) writer_.emplace(*directory_, scene_, disks_, provenance_);
+    if (directory_ != nullptr) writer_.emplace(*directory_, scene_, disks_of(scene_), provenance_);
   }
   if (options_.observe) options_.observe(*observation_);
 }
@@ -151,16 +150,18 @@ void Runner::read(const Checkpoint& from) {
       LoadingArchive archive(in);
       archive(start_.emplace());
     });
-  from.read("files", [&](std::istream& in) { writer_.emplace(*directory_, scene_, disks_, provenance_, in); });
+  from.read("files", [&](std::istream& in) { writer_.emplace(*directory_, scene_, disks_of(scene_), provenance_, in); });
 }
 
 /// Files and frames have the radii of the scene and a scale. Where a change has ended the growth of disks, the simulation has
 /// larger radii and the scale 1.
 const State& Runner::with_scale_of_files(const State& state) {
-  const std::vector<double>& now = simulation_.disks().radius;
-  if (now.empty() || now.front() == disks_.radius.front()) return state;
+  const Disks& now = simulation_.disks();
+  if (now.count() == 0) return state;
+  const double of_scene = scene_.species[static_cast<std::size_t>(now.species.front())].radius_of(0);
+  if (now.radius.front() == of_scene) return state;
   rescaled_ = state;
-  rescaled_.scale *= now.front() / disks_.radius.front();
+  rescaled_.scale *= now.radius.front() / of_scene;
   return rescaled_;
 }
 

@@ -94,8 +94,7 @@ class Runner {
   const RunnerOptions options_;
   const Checkpoint* from_;
   std::optional<SavingPlan> plan_;
-  const Disks disks_;  ///< as the scene has them before its changes
-  State rescaled_;     ///< kept from sample to sample for its memory
+  State rescaled_;  ///< kept from sample to sample for its memory
   RunMeasurements measurements_;
   std::optional<Observation> observation_;
   std::optional<RunWriter> writer_;

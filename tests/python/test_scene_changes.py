@@ -65,3 +65,11 @@ def test_a_run_in_which_the_engine_changed_verifies(tables: dict[str, object], c
     run = carom.open_run(tmp_path / "run")
     assert run.summary["engine_asked"] == "auto"
     assert run.verify() == []
+
+
+@pytest.mark.parametrize("change", ["growth.rate=0", "growth.rate=0.1"])
+def test_a_box_without_disks_runs(change: str) -> None:
+    scene = changing({"growth": {"rate": 0.1}}, change).set({"disks.0.count": 0, "run.sample_every": 0.5})
+    frames = carom.run(scene, frames=True).frames
+    assert frames is not None
+    assert frames.positions.shape == carom.Simulation(scene).sample(0.5, 2.0).positions.shape == (5, 0, 2)
