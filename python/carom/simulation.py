@@ -152,7 +152,8 @@ class Simulation:
 
     @property
     def scene(self) -> Scene:
-        """The scene, with what acts on the disks now."""
+        """The scene, with what acts on the disks now. Where they have grown so far that its start has no room for them, it lists them
+        as they are."""
         if self._now is None:
             self._now = Scene._of(self._core.scene)
         return self._now

@@ -4,6 +4,7 @@
 #include "python/buffers.hpp"
 #include "python/given_state.hpp"
 #include "python/parts.hpp"
+#include "scene/listed_disks.hpp"
 #include "scene/resolved_effects.hpp"
 #include "simulation/sampling_times.hpp"
 #include "simulation/saved_simulation.hpp"
@@ -189,9 +190,15 @@ struct PlayerRecording {
   }
 };
 
-/// The scene as it is now: its text is not that which was read.
+/// The scene as it is now: its text is not that which was read. Where disks have grown, or walls have come nearer, so far that
+/// the scene's start has no room for them, it lists the disks as they are now.
 Scene scene_now(const Simulation& simulation) {
   Scene scene = simulation.scene();
+  try {
+    check(scene);
+  } catch (const SceneError&) {
+    list_disks(scene, simulation.state());
+  }
   scene.text = resolved_toml(scene);
   scene.overrides.clear();
   return scene;

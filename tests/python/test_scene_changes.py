@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from pathlib import Path
 
 import numpy as np
@@ -65,6 +66,38 @@ def test_a_run_in_which_the_engine_changed_verifies(tables: dict[str, object], c
     run = carom.open_run(tmp_path / "run")
     assert run.summary["engine_asked"] == "auto"
     assert run.verify() == []
+
+
+DENSE = {
+    "box": {"x": (0.0, 12.0), "y": (0.0, 12.0), "boundary": "periodic"},
+    "disks": {"count": 100, "radius": 0.4, "mass": 1.0, "positions": "random", "velocities": {"temperature": 1.0}},
+    "growth": {"rate": 0.3},
+}
+
+
+def grows_beyond_random_placement() -> carom.Simulation:
+    sim = carom.Simulation(changing(DENSE, "growth.rate=0"))
+    sim.run_until(1.5)
+    assert sim.scene.packing_fraction == pytest.approx(100 * np.pi * 0.52**2 / 144.0, rel=1e-12)  # 0.59; random ends at 0.547
+    return sim
+
+
+def moved_by_a_wall() -> carom.Simulation:
+    walls = {"box": DENSE["box"] | {"boundary": "walls"}, "walls": {"right": {"velocity": -0.5}}, "growth": {"rate": 0.0}}
+    sim = carom.Simulation(changing(DENSE | walls, "walls.right.velocity=0"))
+    sim.run_until(1.5)
+    assert sim.scene.box[0][1] == pytest.approx(11.5, rel=1e-12)
+    return sim
+
+
+@pytest.mark.parametrize("begin", [grows_beyond_random_placement, moved_by_a_wall])
+def test_the_scene_of_now_is_one_to_begin_with(begin) -> None:
+    sim = begin()
+    assert np.array_equal(carom.Simulation(sim.scene, state=sim.state).positions, sim.positions)
+    assert carom.voronoi(sim.scene, sim.state)["area"].sum() == pytest.approx(np.prod(np.diff(sim.scene.box)), rel=1e-12)
+    assert carom.clusters(sim.scene, sim.state, gap=0.1).rows == 100
+    assert pickle.loads(pickle.dumps(sim.scene)) == sim.scene
+    assert carom.Simulation(sim.scene.set({"run.time": 3.0})).run_until(1.0) == carom.Stop.TIME
 
 
 @pytest.mark.parametrize("change", ["growth.rate=0", "growth.rate=0.1"])
