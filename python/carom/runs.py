@@ -546,7 +546,9 @@ class Run:
             return measurements_of(_files.analyse(fspath(self.directory), wanted))
 
     def verify(self) -> list[str]:
-        """Runs the scene again. Returns one sentence for each difference from what is in the directory: none, if all is the same."""
+        """Runs the scene again. Returns one sentence for each difference from what is in the directory: none, if all is the same.
+
+        Observables of one's own are left out: the scene does not ask for them."""
         import tempfile
         from pathlib import Path
 

@@ -3,6 +3,7 @@
 #include "io/finished_run.hpp"
 #include "io/hdf5_handle.hpp"
 #include "io/run_directory.hpp"
+#include "scene/observables_known.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -26,6 +27,16 @@ constexpr std::size_t most_per_file = 3;  // differences: where one bit goes ano
 constexpr std::array<std::string_view, 10> not_compared = {"carom",        "scene",   "wall_seconds", "collisions_per_second",
                                                            "loop_seconds", "cores",   "command_line", "resolved_scene",
                                                            "horizon",      "verified"};
+
+/// The names of a run's observables that no scene can ask for: a program has measured them, and another run of the scene has not.
+std::vector<std::string> observables_of_program(const fs::path& directory) {
+  std::vector<std::string> names;
+  const nlohmann::json summary = detail::summary_in(directory);
+  if (const auto measured = summary.find("observables"); measured != summary.end())
+    for (const auto& [name, results] : measured->items())
+      if (detail::find_observable(name) == nullptr) names.push_back(name);
+  return names;
+}
 
 void collect_datasets(hid_t file, const std::string& group, std::vector<std::string>& paths) {
   for (const std::string& name : detail::members_of(file, group.empty() ? "/" : group)) {
@@ -90,13 +101,18 @@ std::string first_difference(const RawDataset& one, const RawDataset& other) {
   return {};
 }
 
-std::string compare_trajectories(const fs::path& one, const fs::path& other, std::vector<std::string>& differences) {
+std::string compare_trajectories(const fs::path& one, const fs::path& other, const std::vector<std::string>& left_out,
+                                 std::vector<std::string>& differences) {
   const detail::SilentHdf5 silent;
   const auto open = [](const fs::path& path) { return Hdf5Id(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose); };
   const Hdf5Id a = open(one), b = open(other);
   std::vector<std::string> in_a, in_b;
   collect_datasets(a.get(), "", in_a);
   collect_datasets(b.get(), "", in_b);
+  for (const std::string& observable : left_out)
+    std::erase_if(in_a, [group = fmt::format("/measurements/{}/", observable)](const std::string& path) {
+      return path.starts_with(group);
+    });
   const std::string name = one.filename().string();
   if (in_a != in_b)
     differences.push_back(fmt::format("{}: {} against {} datasets, of other names", name, in_a.size(), in_b.size()));
@@ -110,7 +126,8 @@ std::string compare_trajectories(const fs::path& one, const fs::path& other, std
   return fmt::format("{} ({} datasets)", name, in_a.size());
 }
 
-std::string compare_texts(const fs::path& one, const fs::path& other, std::vector<std::string>& differences) {
+std::string compare_texts(const fs::path& one, const fs::path& other, const std::vector<std::string>& /*left_out*/,
+                          std::vector<std::string>& differences) {
   std::ifstream a(one, std::ios::binary), b(other, std::ios::binary);
   std::string in_a, in_b;
   std::size_t line = 0;
@@ -125,7 +142,8 @@ std::string compare_texts(const fs::path& one, const fs::path& other, std::vecto
   return fmt::format("{} ({} lines)", one.filename().string(), line - 1);
 }
 
-std::string compare_summaries(const fs::path& one, const fs::path& other, std::vector<std::string>& differences) {
+std::string compare_summaries(const fs::path& one, const fs::path& other, const std::vector<std::string>& left_out,
+                              std::vector<std::string>& differences) {
   nlohmann::json a = detail::summary_in(one.parent_path()), b = detail::summary_in(other.parent_path());
   const bool several_cores = a.contains("cores") || b.contains("cores");  // each domain counts what it has by itself
   for (const std::string_view key : not_compared) {
@@ -135,6 +153,8 @@ std::string compare_summaries(const fs::path& one, const fs::path& other, std::v
   if (several_cores)
     for (nlohmann::json* summary : {&a, &b})
       if (const auto numerics = summary->find("numerics"); numerics != summary->end()) numerics->erase("simultaneous");
+  for (const std::string& observable : left_out) a["observables"].erase(observable);
+  if (!left_out.empty() && a["observables"].empty()) a.erase("observables");
   const nlohmann::json patch = nlohmann::json::diff(a, b);
   for (std::size_t k = 0; k < std::min(patch.size(), most_per_file); ++k) {
     const std::string path = patch[k].at("path");
@@ -146,13 +166,15 @@ std::string compare_summaries(const fs::path& one, const fs::path& other, std::v
   }
   if (patch.size() > most_per_file)
     differences.push_back(fmt::format("summary.json: {} more values differ", patch.size() - most_per_file));
-  return "summary.json";
+  if (left_out.empty()) return "summary.json";
+  return fmt::format("summary.json (without {}, which the scene does not ask for)", fmt::join(left_out, ", "));
 }
 
 }  // namespace
 
 SameResults compare_results(const fs::path& one, const fs::path& other) {
   SameResults found;
+  const std::vector<std::string> left_out = observables_of_program(one);
   for (const std::string_view product : run_products) {
     const fs::path a = one / product, b = other / product;
     if (a.extension() == ".html" || a.extension() == ".h5") continue;  // pages and checkpoints are no results
@@ -167,7 +189,7 @@ SameResults compare_results(const fs::path& one, const fs::path& other) {
       const auto compare = a.extension() == ".h5md"   ? compare_trajectories
                            : a.extension() == ".json" ? compare_summaries
                                                       : compare_texts;
-      found.files.push_back(compare(a, b, found.differences));
+      found.files.push_back(compare(a, b, left_out, found.differences));
     } catch (const detail::Hdf5Error& damage) {
       throw OutputError(
           fmt::format("{}: HDF5 cannot read this file ({}); it is damaged or cut short", a.string(), damage.what()));

@@ -16,7 +16,8 @@ struct SameResults {
 };
 
 /// Compares the trajectories, text files and summaries of two run directories. Times by the clock, the command and the build may
-/// differ; so may checks that were asked for in addition (horizon, verification). Throws OutputError where a file cannot be read.
+/// differ; so may checks that were asked for in addition (horizon, verification). Observables of a program's own, which only the
+/// first of the two has, are left out. Throws OutputError where a file cannot be read.
 [[nodiscard]] SameResults compare_results(const std::filesystem::path& one, const std::filesystem::path& other);
 
 }  // namespace carom

@@ -119,6 +119,24 @@ def test_an_observable_of_ones_own_is_told_everything_and_changes_nothing(gas):
     assert np.allclose(before, told["velocity"] + told["partner_velocity"], atol=1e-13)
 
 
+@pytest.mark.parametrize("others", [[], ["pressure"]])
+def test_an_observable_of_ones_own_is_no_difference(gas, tmp_path, program, others):
+    carom.run(gas, observables=[*others, Everything()], out=tmp_path / "run")
+    assert carom.open_run(tmp_path / "run").verify() == []
+    told = program("verify", tmp_path / "run")
+    assert told.returncode == 0
+    assert told.stdout.endswith("summary.json (without everything, which the scene does not ask for)\n")
+
+
+def test_a_number_that_another_run_has_not_is_a_difference(gas, tmp_path):
+    carom.run(gas, observables=["pressure", Everything()], out=tmp_path / "run")
+    summary = tmp_path / "run" / "summary.json"
+    told = json.loads(summary.read_text())
+    told["observables"]["pressure"]["Z"]["value"] *= 1.0 + 1e-15
+    summary.write_text(json.dumps(told))
+    assert ["/observables/pressure/Z/value" in difference for difference in carom.open_run(tmp_path / "run").verify()] == [True]
+
+
 def test_an_observable_that_keeps_no_batch_is_told_the_same(gas):
     class Virial(carom.Observable):
         name, step, follows_collisions, own = "virial", 0.5, True, 0.0
