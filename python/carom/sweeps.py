@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import hashlib
 import itertools
 import math
 import os
@@ -144,7 +145,8 @@ def sweep(
         scene: a Scene, the path of a scene file, or a mapping.
         points: values by key, {"packing_fraction": [0.1, 0.2]}: every combination is a point, and the first key changes last. Or a
             list of points, [{"disks.0.radius": 0.1, "disks.0.count": 50}, ...]. Keys are those of `Scene.set()`, or their ends
-            where no other key of the scene ends so: "packing_fraction" for "disks.0.packing_fraction".
+            where no other key of the scene ends so: "packing_fraction" for "disks.0.packing_fraction". Of points that have the same
+            scene the first one stays, and a RuntimeWarning names the others.
         seeds: of the runs at every point; a number n: the scene's own seed and those after it.
         numbers: names of numbers of summary.json, such as "pressure.Z_error"; or of a table of an observable, the value of a column
             where its first column has a value, "observables.mean_square_displacement.diffusion@5"; None: the usual ones, and all
@@ -165,7 +167,7 @@ def sweep(
     base, own = _with_observables(as_scene(scene), observables)
     keys, values = _points(points)
     full = _full_keys(base, keys)
-    scenes = [_scene_at(base, keys, full, point) for point in values]
+    values, scenes = _different(values, [_scene_at(base, keys, full, point) for point in values])
     seed_list = _seeds(seeds, base)
     step = None if dt is None else _arguments.real(dt, "dt")
     spring = None if stiffness is None else _arguments.real(stiffness, "stiffness")
@@ -398,7 +400,7 @@ def _full_keys(scene: Scene, keys: Sequence[str]) -> list[str]:
         if len(ends) > 1:
             raise ValueError(f"{key}: {len(ends)} keys of the scene end so: {', '.join(ends)}; give one of them")
         if not ends and "." not in key:
-            raise ValueError(f"{key}: no key of the scene ends so; give a whole one, such as \"disks.0.{key}\"")
+            raise ValueError(f"{key}: no key of the scene ends so; give a whole one, with its table, such as \"disks.0.radius\"")
         return ends[0] if ends else key
 
     return [full(key) for key in keys]
@@ -418,8 +420,27 @@ def _scene_at(base: Scene, keys: Sequence[str], full: Sequence[str], point: Mapp
     try:
         return base.set({name: point[key] for key, name in zip(keys, full, strict=True) if key in point})
     except SceneError as error:
-        where = ", ".join(f"{key} = {value}" for key, value in point.items())
-        raise SceneError(f"the scene of the point {where} is refused: {error.sentence}") from None
+        raise SceneError(f"the scene of the point {_point_text(point)} is refused: {error.sentence}") from None
+
+
+def _different(points: Sequence[Mapping[str, Any]], scenes: Sequence[Scene]) -> tuple[list[Mapping[str, Any]], list[Scene]]:
+    """Returns the points whose scenes are all different, with them: of several that have one scene, such as those of 1 and 1.0, the
+    first. A warning names the others."""
+    first: dict[bytes, int] = {}
+    repeated = []
+    for at, scene in enumerate(scenes):
+        earlier = first.setdefault(hashlib.sha256(scene._core.toml.encode()).digest(), at)
+        if earlier != at:
+            repeated.append(f"{_point_text(points[at])} (that of {_point_text(points[earlier])})")
+    if repeated:
+        more = f" and {len(repeated) - 3} more" if len(repeated) > 3 else ""
+        sentence = f"points whose scene another one has already are left out: {'; '.join(repeated[:3])}{more}"
+        warnings.warn(sentence, RuntimeWarning, stacklevel=3)
+    return [points[at] for at in first.values()], [scenes[at] for at in first.values()]
+
+
+def _point_text(point: Mapping[str, Any]) -> str:
+    return ", ".join(f"{key} = {_arguments.shown(value)}" for key, value in point.items())
 
 
 def _seeds(seeds: int | Iterable[int], scene: Scene) -> list[int]:

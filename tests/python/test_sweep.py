@@ -195,6 +195,13 @@ def test_mistakes_are_told_before_anything_runs(gas, tmp_path, mistake, kind, se
     assert "\n" not in str(caught.value)
 
 
+def test_of_points_with_one_scene_the_first_stays(gas: carom.Scene) -> None:
+    with pytest.warns(RuntimeWarning, match=r"left out: radius = 0.2 \(that of radius = 0.2\); radius = 0.1 \(that of radius = 0.1\)$"):
+        swept = carom.sweep(gas, {"radius": [0.2, 0.2, 0.1, 0.1]}, seeds=2)
+    assert swept.table["radius"].tolist() == [0.2, 0.1]
+    assert swept.table["finished"].tolist() == [2, 2]
+
+
 def test_soft_disks_are_swept(gas, tmp_path):
     soft = {"method": "soft", "dt": 0.001, "stiffness": 2e4}
     swept = carom.sweep(gas, {"run.time": [0.5]}, seeds=[3], out=tmp_path / "out", **soft)
