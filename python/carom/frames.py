@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
@@ -50,12 +51,15 @@ class State:
     ) -> None:
         places = pairs(positions, "positions")
         count = len(places)
+        now = real(time, "time")
+        if not math.isfinite(now):
+            raise ValueError(f"time is {now}; give a finite number")
         self._core = _core.State(
             places,
             None if velocities is None else pairs(velocities, "velocities", count),
             None if images is None else whole_pairs(images, "images", count),
             None if spins is None else numbers(spins, "spins", count),
-            real(time, "time"),
+            now,
         )
 
     @classmethod

@@ -441,6 +441,8 @@ class Simulation:
             raise ValueError(f"samples are {dt:g} apart; that must be positive and finite")
         if not math.isfinite(until):
             raise ValueError("a simulation runs to a finite time only")
+        if until / 2**53 > dt:
+            raise ValueError(f"samples {dt:g} apart until {until:g} would be more than 2^53; give a larger dt")
         return self._core.sample_range(until, dt, 0, stride)
 
     def play(self, until: float) -> Player:
@@ -478,6 +480,8 @@ class Simulation:
             SceneError: where the scene, as it would begin now, is wrong. Then nothing is changed.
             ValueError: for a key that does not say what acts on the disks.
         """
+        if isinstance(key, dict) and value is not None:
+            raise TypeError(f"a dict of keys has its values in it; the second argument, {shown(value)}, is left over")
         changes = key if isinstance(key, dict) else {words(key, "a key"): value}
         acting = {name: table for name, table in self.scene.to_dict().items() if name in _EFFECTS}
         for name, entry in changes.items():

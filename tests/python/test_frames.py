@@ -134,6 +134,8 @@ def test_a_state_of_arrays() -> None:
         assert again == state and hash(again) == hash(state)
         assert again.images.tolist() == state.images.tolist() and again.time == 4.0
     assert state != carom.State([[1, 2], [3, 3]]) and state != 1
+    with pytest.raises(ValueError, match="time is nan; give a finite number"):
+        carom.State([[1, 2]], time=np.nan)
 
 
 def test_arrays_outlive_what_they_came_from(gas: carom.Scene) -> None:
