@@ -70,6 +70,11 @@ bool exchanges_uncounted_energy(const Effects& effects) {
          any_wall(effects, takes_or_heats);
 }
 
+double growth_before_changes(const Scene& scene, const Disks& disks) {
+  if (disks.count() == 0) return 1.0;
+  return disks.radius.front() / scene.species[static_cast<std::size_t>(disks.species.front())].radius_of(0);
+}
+
 EffectsReport effects_report(const Scene& scene, const Disks& disks, const Totals& totals, const State& end) {
   const Effects& effects = scene.effects;
   EffectsReport report;
@@ -88,14 +93,10 @@ EffectsReport effects_report(const Scene& scene, const Disks& disks, const Total
   if (effects.thermostat) report.thermostat = {.events = totals.thermostat, .energy = totals.thermostat_energy};
   if (effects.tumbling) report.tumbling = {.events = totals.thermostat};
   if (effects.brownian) report.brownian = {.events = totals.thermostat, .energy = totals.thermostat_energy};
-  if (effects.growth) {
-    // Where a change has ended the growth, the disks have the radii that they grew to, and the scale 1.
-    const double grown = disks.count() == 0
-                             ? 1.0
-                             : disks.radius.front() / scene.species[static_cast<std::size_t>(disks.species.front())].radius_of(0);
-    report.growth = {
-        .scale = end.scale * grown, .packing_fraction = packing_fraction(scene.box, disks, end), .energy = totals.growth_energy};
-  }
+  if (effects.growth)
+    report.growth = {.scale = end.scale * growth_before_changes(scene, disks),
+                     .packing_fraction = packing_fraction(scene.box, disks, end),
+                     .energy = totals.growth_energy};
   if (effects.shear) report.shear = shear_report(scene, totals, end);
   if (effects.square_well) report.bonds = end.bonds;
   if (effects.stepped_potential) report.stepped_potential = {.pairs = end.bonds, .pairs_in_steps = end.pairs_in_steps};

@@ -167,6 +167,10 @@ void visit_events(const EffectsReport& report, AnyCounts& counts, Visit&& visit)
 /// reduce what drag takes later.
 [[nodiscard]] bool exchanges_uncounted_energy(const Effects& effects);
 
+/// Returns the radii of the disks now over those of the scene. Where a change has ended growth, disks have the radii that they
+/// grew to, and a state has the scale 1 from there on; before, and where nothing grows, this is 1.
+[[nodiscard]] double growth_before_changes(const Scene& scene, const Disks& disks);
+
 /// Returns the report from the totals of a run and its last state. Results that need samples are those of EffectMeans.
 [[nodiscard]] EffectsReport effects_report(const Scene& scene, const Disks& disks, const Totals& totals, const State& end);
 

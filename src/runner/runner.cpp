@@ -3,6 +3,7 @@
 #include "core/seconds.hpp"
 #include "core/state_archive.hpp"
 #include "io/partial_file.hpp"
+#include "observe/effects_report.hpp"
 #include "simulation/start.hpp"
 
 #include <fmt/format.h>
@@ -58,7 +59,7 @@ RunResult Runner::simulate(const RunnerHooks& hooks) {
   schedule.sample = [&](std::uint64_t k, const State& state) {
     measurements_.sample(state);
     const Totals totals = simulation_.totals();
-    const State& kept = with_scale_of_files(state);
+    const State& kept = as_in_files(state);
     if (writer_) writer_->sample(k, kept, totals);
     if (hooks.sample) hooks.sample(kept, totals);
   };
@@ -153,16 +154,18 @@ void Runner::read(const Checkpoint& from) {
   from.read("files", [&](std::istream& in) { writer_.emplace(*directory_, scene_, disks_of(scene_), provenance_, in); });
 }
 
-/// Files and frames have the radii of the scene and a scale. Where a change has ended the growth of disks, the simulation has
-/// larger radii and the scale 1.
-const State& Runner::with_scale_of_files(const State& state) {
-  const Disks& now = simulation_.disks();
-  if (now.count() == 0) return state;
-  const double of_scene = scene_.species[static_cast<std::size_t>(now.species.front())].radius_of(0);
-  if (now.radius.front() == of_scene) return state;
-  rescaled_ = state;
-  rescaled_.scale *= now.radius.front() / of_scene;
-  return rescaled_;
+/// Files and frames have the radii and the box of the scene that began, a scale, and where walls are. Where a change has ended
+/// the growth of disks, the simulation has larger radii and the scale 1; where one has stopped all walls, it has another box.
+const State& Runner::as_in_files(const State& state) {
+  const double grown = growth_before_changes(scene_, simulation_.disks());
+  const Box& box = simulation_.scene().box;
+  const bool moved = state.walls.empty() && (box.lower != scene_.box.lower || box.upper != scene_.box.upper);
+  if (grown == 1.0 && !moved) return state;
+  in_files_ = state;
+  in_files_.scale *= grown;
+  if (moved)
+    for (const int axis : {0, 1}) in_files_.walls.insert(in_files_.walls.end(), {{box.lower[axis], 0.0}, {box.upper[axis], 0.0}});
+  return in_files_;
 }
 
 /// Observables keep the steps that followed from the end which the run began with; from another end others would follow.

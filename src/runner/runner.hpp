@@ -83,7 +83,7 @@ class Runner {
   [[nodiscard]] bool is_due(const SavingMoment& moment) const;
   void save(const SavingMoment& moment, const RunnerHooks& hooks);
   void read(const Checkpoint& from);
-  [[nodiscard]] const State& with_scale_of_files(const State& state);
+  [[nodiscard]] const State& as_in_files(const State& state);
   [[nodiscard]] std::string scene_with_steps() const;
   void write_report(RunnerOutcome& outcome) const;
 
@@ -94,7 +94,7 @@ class Runner {
   const RunnerOptions options_;
   const Checkpoint* from_;
   std::optional<SavingPlan> plan_;
-  State rescaled_;  ///< kept from sample to sample for its memory
+  State in_files_;  ///< kept from sample to sample for its memory
   RunMeasurements measurements_;
   std::optional<Observation> observation_;
   std::optional<RunWriter> writer_;

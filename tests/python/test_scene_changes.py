@@ -106,3 +106,25 @@ def test_a_box_without_disks_runs(change: str) -> None:
     frames = carom.run(scene, frames=True).frames
     assert frames is not None
     assert frames.positions.shape == carom.Simulation(scene).sample(0.5, 2.0).positions.shape == (5, 0, 2)
+
+
+@pytest.mark.parametrize(
+    ("walls", "change"),
+    [
+        ({"right": {"velocity": 0.5}}, "walls.right.velocity=0"),
+        ({"bottom": {"vibration": {"form": "sine", "amplitude": 0.5, "frequency": 0.125}}}, "walls.bottom.vibration.amplitude=0"),
+    ],
+)
+def test_a_wall_that_a_change_stops_stays_there_in_files_and_frames(walls, change, tmp_path: Path) -> None:
+    box = {"box": DENSE["box"] | {"boundary": "walls"}, "walls": walls, "growth": {"rate": 0.0}}
+    scene = changing(DENSE | box, change).set({"run.sample_every": 0.5, "disks.0.radius": 0.3})
+    result = carom.run(scene, frames=True, out=tmp_path / "run")
+    run = carom.open_run(tmp_path / "run")
+    at_change = [position for position, _ in run.state(2).walls]
+    assert at_change != [0.0, 12.0, 0.0, 12.0]
+    for k in (3, 4):
+        assert [position for position, _ in run.state(k).walls] == pytest.approx(at_change, rel=1e-12)
+        assert [position for position, _ in result.frames[k].walls] == pytest.approx(at_change, rel=1e-12)
+    (x0, x1), (y0, y1) = (at_change[:2], at_change[2:])
+    covered = 100 * np.pi * 0.3**2 / ((x1 - x0) * (y1 - y0))
+    assert run.summary["packing_fraction_end"] == pytest.approx(covered, rel=1e-12)
