@@ -152,7 +152,8 @@ class Observation {
   /// recorded where observables follow collisions, and taken by this. The state goes to the observables of which a step is due
   /// now, at k steps from time 0, k = 0, 1, 2, ...; a call between two steps hands on collisions alone. Call it at next_sample(),
   /// and at the end. Throws std::logic_error where a step was passed over, or the measurement would begin later than at time 0;
-  /// after equilibrating call Simulation::reset_clock(). Requires the simulation that this was made for.
+  /// after equilibrating call Simulation::reset_clock(). So it does where the program has changed the simulation since this was
+  /// made, by set_effects() and the like. Requires the simulation that this was made for.
   void sample(Simulation& simulation);
   /// The time at which sample() is due next: infinite where no observable takes steps.
   [[nodiscard]] double next_sample() const;

@@ -70,7 +70,8 @@ struct RunLimits {
   static constexpr auto none = std::numeric_limits<std::uint64_t>::max();
 
   std::uint64_t collisions = none;  ///< of pairs, since the zero of time: Counts::pair
-  std::uint64_t events = none;      ///< of any kind, since the zero of time: Counts::events()
+  /// Of any kind, since the zero of time: Counts::events(). Brownian redraws of one time are made together.
+  std::uint64_t events = none;
   /// Called after every event; the run ends at the event for which it is true. It may look at the simulation, which stands at the
   /// event, and change it as a program may between two calls of run_until(). With it the engine is entered anew for every event,
   /// which takes several times as long.
@@ -147,7 +148,8 @@ class Simulation {
 
   /// Goes to the next event, if there is one up to and including `until`, and returns it: a collision with a disk, a wall or an
   /// obstacle, the edge of a well, or a new velocity by the thermostat (Event::partner says which). Otherwise goes to `until`,
-  /// where that is finite, and returns nothing. So it does too where the simulation cannot go on; run_until() says why. Throws
+  /// where that is finite, and returns nothing. So it does too where the simulation cannot go on, and run_until() says why; and
+  /// without `until` where disks have flown a hundred million times and met nothing. Throws
   /// std::logic_error for a fixed-step method, which has no events.
   std::optional<Event> step(double until = std::numeric_limits<double>::infinity());
 
@@ -167,6 +169,9 @@ class Simulation {
   /// one finite velocity, and spin, per disk; SceneError where speeds are beyond what can be computed with; std::logic_error as
   /// above.
   void set_velocities(const Eigen::Matrix2Xd& velocities, const Eigen::VectorXd& spins = {});
+
+  /// Returns how many times set_effects(), set_velocities() and set_collision_rule() have changed the simulation.
+  [[nodiscard]] std::uint64_t changes_by_program() const;
 
   /// Has two disks that meet do what `rule` says, in the place of all that scene().effects.collision says; an empty one brings
   /// that back. All else that disks meet is what it was, the edges of wells too. The simulation goes on as under set_effects().

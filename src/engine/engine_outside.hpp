@@ -121,6 +121,8 @@ void Engine<Impact, Layout, World>::leave(Continuation& continuation) const {
   if constexpr (!World::plain) {
     continuation.wall_draws = world_.walls.draws();
     continuation.oscillations = world_.walls.oscillation_clocks(now_);
+  } else {
+    continuation.oscillations = {};  // no wall has vibrated: one that is to do so again begins anew
   }
   continuation.bonds.clear();
   if constexpr (!Impact::plain) {

@@ -1,5 +1,6 @@
 // Hands states and collisions of a run to its observables.
 
+#include "core/instant.hpp"
 #include "observe/observable_group.hpp"
 #include "observe/observing_thread.hpp"
 
@@ -47,6 +48,7 @@ class Observation::Driver {
 
   void sample(Simulation& simulation) {
     if (&simulation != &simulation_) throw std::logic_error("an observation samples the simulation that it was made for");
+    require_unchanged();
     if (!begun_) begin(simulation);
     if (group_.follows_collisions()) {
       simulation.take_events(events_);
@@ -72,6 +74,8 @@ class Observation::Driver {
     if (!begun_) return 0.0;
     double next = std::numeric_limits<double>::infinity();
     for (const Due& due : due_) next = std::min(next, static_cast<double>(due.k) * due.step);
+    if (const std::vector<Change>& changes = simulation_.scene().changes; !changes.empty())
+      next = before_change({changes.front().time, 0.0}, {next, 0.0}).high;
     return next;
   }
 
@@ -94,6 +98,13 @@ class Observation::Driver {
     std::vector<Observable*> observables;
     std::uint64_t k = 0;
   };
+  /// Observables know what acts when they are made, and the changes of the scene; of those of a program they are not told.
+  void require_unchanged() const {
+    if (simulation_.changes_by_program() == changes_before_) return;
+    throw std::logic_error(
+        "the simulation was changed by set_effects(), set_velocities() or set_collision_rule() since this observation was made; "
+        "make another one after reset_clock(), or let [[changes]] of the scene make the change");
+  }
   void begin(Simulation& simulation) {
     if (simulation.time() != 0.0 || simulation.counts().events() != 0)
       throw std::logic_error(
@@ -110,6 +121,7 @@ class Observation::Driver {
   void attach(RunHooks& hooks, Follower& follower, Sample sample) {
     if (group_.empty()) return;
     hooks.start = [this, next = std::move(hooks.start)](const State& state) {
+      require_unchanged();
       finish();  // of an earlier run
       group_.start(state);
       if (next) next(state);
@@ -141,6 +153,7 @@ class Observation::Driver {
   }
 
   const Simulation& simulation_;
+  const std::uint64_t changes_before_ = simulation_.changes_by_program();
   ObservableGroup group_;
   std::map<double, std::vector<Observable*>> steps_;
   std::optional<ObservingThread> thread_;

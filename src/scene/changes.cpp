@@ -1,5 +1,6 @@
 #include "scene/changes.hpp"
 
+#include "core/instant.hpp"
 #include "scene/document.hpp"
 #include "scene/effect_traits.hpp"
 #include "scene/fixed_shapes.hpp"
@@ -203,7 +204,7 @@ Effects effects_after(const Effects& effects, const Change& change) {
 Effects effects_at(const Scene& scene, double time) {
   Effects effects = scene.effects;
   for (const Change& change : scene.changes)
-    if (change.time < time) effects = effects_after(effects, change);
+    if (change.time < time && !equal_to_rounding({change.time, 0.0}, {time, 0.0})) effects = effects_after(effects, change);
   return effects;
 }
 

@@ -157,7 +157,11 @@ void Simulation::set_effects(const Effects& effects) {
   State state = parts_->engine->state();
   check_begun(begun_now(scene, state, parts_->oscillation_clocks(), parts_->engine_name == "textbook-float"), state);
   parts_->go_on(std::move(scene), std::move(state), parts_->rule);
+  if (parts_->whole) parts_->whole->effects = detail::effects_of_whole_run(parts_->scene);
+  ++parts_->changes_by_program;
 }
+
+std::uint64_t Simulation::changes_by_program() const { return parts_->changes_by_program; }
 
 void Simulation::set_velocities(const Eigen::Matrix2Xd& velocities, const Eigen::VectorXd& spins) {
   parts_->require_changeable();
@@ -169,6 +173,7 @@ void Simulation::set_velocities(const Eigen::Matrix2Xd& velocities, const Eigen:
     state.spins = spins;
   }
   parts_->go_on(parts_->scene, std::move(state), parts_->rule);
+  ++parts_->changes_by_program;
 }
 
 void Simulation::set_collision_rule(CollisionFunction rule) {
@@ -181,6 +186,7 @@ void Simulation::set_collision_rule(CollisionFunction rule) {
   }
   parts_->rule_missing = false;
   parts_->go_on(parts_->scene, parts_->engine->state(), std::move(rule));
+  ++parts_->changes_by_program;
 }
 
 bool Simulation::has_collision_rule() const { return parts_->rule || parts_->rule_missing; }

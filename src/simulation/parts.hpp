@@ -62,7 +62,8 @@ struct Simulation::Parts {
   bool scheduled = false;                   ///< run_schedule() is at work
   bool clock_began = false;                 ///< it was set to zero at the end of equilibrating: changes count from then on
   std::optional<Scene> whole = {};          ///< Simulation::whole_scene() of a scene with changes
-  Ranks* ranks = nullptr;                   ///< that compute it; null: this process alone
+  std::uint64_t changes_by_program = 0;
+  Ranks* ranks = nullptr;  ///< that compute it; null: this process alone
 
   /// Returns how long each wall has vibrated as it does. Requires require_changeable().
   [[nodiscard]] std::array<OscillationClock, 4> oscillation_clocks() const;
@@ -74,6 +75,9 @@ struct Simulation::Parts {
     const bool equilibrates = scene.run.equilibrate && !clock_began;
     return scene.changes.empty() || equilibrates ? forever : Instant{scene.changes.front().time, 0.0};
   }
+  /// The time at which a sample of time `when` is taken: that of the next change where the two are equal to rounding, as 3 * 0.1
+  /// and 0.3 are. The change comes after the sample.
+  [[nodiscard]] Instant before_change(const Instant& when) const { return carom::before_change(next_change(), when); }
   /// Makes the next of the scene's changes, at now. Throws SceneError where it cannot be made; then all is as it was.
   void make_change();
   /// Has the engine compute on the threads of all ranks. The other ranks are in serve_ranks(), and serve no simulation.
@@ -91,6 +95,8 @@ struct Simulation::Parts {
   /// Does the same up to the next change at most.
   StopReason run_between_changes(const Instant& target, const RunLimits& limits, detail::ProceedWatch& watch);
   std::optional<Event> next_event_before_change(const Instant& target, std::uint64_t collision_limit, bool& arrived);
+  /// Makes `standstill` where it is missing.
+  void look_for_standstill();
   /// Keeps what holds for the whole run of a scene with changes.
   void keep_whole(const Scene& given);
   /// Goes to the next event, unless `target` or the limit of collisions comes first or the engine cannot go on. `arrived`:

@@ -68,7 +68,11 @@ class Schedule {
         moving_as_one_(std::in_place, *engine, scene, disks, block_collisions_) {}
   Schedule(const Schedule&) = delete;
   Schedule& operator=(const Schedule&) = delete;
-  ~Schedule() { engine().listen({}); }
+  ~Schedule() {
+    engine().listen({});
+    engine().record_events(false);
+    engine().take_events(events_);  // those that a hook which has thrown left
+  }
 
   RunResult operator()() {
     list_grids();
@@ -159,7 +163,7 @@ class Schedule {
       if (beyond && !advance_and_count(end, collisions)) return;
       const Instant before = engine().now();
       const std::uint64_t happened = detail::happenings(engine().counts());
-      const bool arrived = advance_and_count(when, collisions);
+      const bool arrived = advance_and_count(before_change(next_change(), when), collisions);
       const bool at_start = !(Instant{} < when);
       if (!arrived && !(at_start && collisions == 0)) return;  // the start is sampled even where nothing is to happen
       if (!take_samples(when) || !arrived) return;
@@ -534,10 +538,11 @@ RunResult run_schedule(Simulation& simulation, const RunHooks& hooks) {
       throw std::invalid_argument("the step of a sampling grid must be positive and finite");
   struct AtWork {
     bool& flag;
-    explicit AtWork(bool& is) : flag(is) { flag = true; }
+    const bool before;  // a hook may run a schedule
+    explicit AtWork(bool& is) : flag(is), before(std::exchange(is, true)) {}
     AtWork(const AtWork&) = delete;
     AtWork& operator=(const AtWork&) = delete;
-    ~AtWork() { flag = false; }
+    ~AtWork() { flag = before; }
   } const at_work(parts.scheduled);
   parts.recording = false;
   return Schedule(

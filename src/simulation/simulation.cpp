@@ -21,8 +21,18 @@
 
 namespace carom {
 
+namespace {
+
+/// A search for the next event gives up after so many flights without one (some seconds): disks fly past each other for ever, as
+/// far as anyone can tell.
+constexpr std::uint64_t most_flights = 100'000'000;
+
+}  // namespace
+
 StopReason Simulation::Parts::run_to(const Instant& target, const RunLimits& limits, detail::ProceedWatch& watch) {
-  while (next_change() < std::min(target, forever)) {  // a target that is not finite is refused below
+  if (!std::isfinite(target.high) || !std::isfinite(target.low))
+    throw std::invalid_argument("a simulation runs to a finite time only");
+  while (next_change() < target) {
     if (const StopReason stopped = run_between_changes(next_change(), limits, watch); stopped != StopReason::time) return stopped;
     make_change();
   }
@@ -30,12 +40,9 @@ StopReason Simulation::Parts::run_to(const Instant& target, const RunLimits& lim
 }
 
 StopReason Simulation::Parts::run_between_changes(const Instant& target, const RunLimits& limits, detail::ProceedWatch& watch) {
-  if (!std::isfinite(target.high) || !std::isfinite(target.low))
-    throw std::invalid_argument("a simulation runs to a finite time only");
   if (time_step && (limits.events != RunLimits::none || limits.stop_when))
     throw std::invalid_argument("a fixed-step method ends at a time or a number of collisions of pairs only");
   require_rule();
-  if (!standstill) standstill.emplace(*engine, disks.count(), smallest_radius, scene.effects);
   for (;;) {
     const std::uint64_t happened = engine->counts().events();
     if (happened >= limits.events) return StopReason::events;
@@ -43,7 +50,9 @@ StopReason Simulation::Parts::run_between_changes(const Instant& target, const R
     if (limits.stop_when) {
       const std::optional<Event> event = next_event(target, limits.collisions, arrived);
       if (event && limits.stop_when(*event)) return StopReason::condition;
+      look_for_standstill();  // anew, where the condition has changed the simulation
     } else {
+      look_for_standstill();
       const std::uint64_t collisions = std::min(limits.collisions, standstill->collisions_at_look());
       const std::uint64_t events = std::min(watch.events(), standstill->events_until_look(engine->counts()));
       arrived = limits.events == RunLimits::none
@@ -56,6 +65,10 @@ StopReason Simulation::Parts::run_between_changes(const Instant& target, const R
     if (const auto reason = standstill->reached(*engine, {target, limits.collisions})) return *reason;
     if (watch.stopped()) return StopReason::interrupted;
   }
+}
+
+void Simulation::Parts::look_for_standstill() {
+  if (!standstill) standstill.emplace(*engine, disks.count(), smallest_radius, scene.effects);
 }
 
 void Simulation::Parts::keep_whole(const Scene& given) {
@@ -88,8 +101,9 @@ std::optional<Event> Simulation::Parts::next_event_before_change(const Instant& 
            !detail::why_stopped(*engine, scene.effects);
   };
   if (!recording) engine->record_events(true);
+  std::uint64_t looks = target < forever ? RunLimits::none : most_flights;  // a target is reached
   do arrived = engine->run_until(target, collision_limit, 1);
-  while (may_go_on());
+  while (may_go_on() && --looks > 0);
   if (!recording) engine->record_events(false);
   engine->take_events(last);
   if (recording) events.insert(events.end(), last.begin(), last.end());
@@ -123,7 +137,7 @@ void Simulation::state(State& state) const { parts_->engine->state(state); }
 StopReason Simulation::run_until(double time, const RunLimits& limits) { return parts_->run_to({time, 0.0}, limits); }
 
 StopReason Simulation::run_until_sample(std::uint64_t k, double dt, const RunLimits& limits) {
-  return parts_->run_to(Instant::product(k, dt), limits);
+  return parts_->run_to(parts_->before_change(Instant::product(k, dt)), limits);
 }
 
 StopReason Simulation::run_sampled(double until, const SamplingGrid& grid, const RunLimits& limits, const SampleRange& range) {
@@ -146,7 +160,8 @@ StopReason Simulation::run_sampled(double until, const SamplingGrid& grid, const
       if (const StopReason reason = parts_->run_to(end, limits, watch); reason != StopReason::time) return reason;
     const Instant before = parts_->engine->now();
     const std::uint64_t happened = detail::happenings(parts_->engine->counts());
-    if (const StopReason reason = parts_->run_to(when, limits, watch); reason != StopReason::time) return reason;
+    if (const StopReason reason = parts_->run_to(parts_->before_change(when), limits, watch); reason != StopReason::time)
+      return reason;
     if (grid.sample) {
       grid.velocities_alone ? parts_->engine->store_velocities(state) : parts_->engine->state(state);
       state.time = when.high;

@@ -114,6 +114,29 @@ TEST(Observation, HasNoResultsOfARunThatNeverBegan) {
   EXPECT_TRUE(observation.results().empty());
 }
 
+TEST(Observation, RefusesToGoOnWhereAProgramHasChangedTheSimulation) {
+  const Scene scene = parse_scene(small_fluid("temperature = true"));
+  const auto refused = [&](const auto& change) {
+    Simulation simulation = make_simulation(scene);
+    Observation observation(simulation);
+    observation.sample(simulation);
+    change(simulation);
+    EXPECT_THROW(observation.sample(simulation), std::logic_error);
+    RunHooks hooks;
+    observation.attach(hooks);
+    EXPECT_THROW(run_schedule(simulation, hooks), std::logic_error);
+    simulation.reset_clock();
+    Observation(simulation).sample(simulation);  // another one
+  };
+  refused([](Simulation& simulation) {
+    Effects effects = simulation.scene().effects;
+    effects.square_well = SquareWell{1.5, 0.5};
+    simulation.set_effects(effects);
+  });
+  refused([](Simulation& simulation) { simulation.set_velocities(-simulation.state().velocities); });
+  refused([](Simulation& simulation) { simulation.set_collision_rule([](CollidingPair&) {}); });
+}
+
 TEST(Observation, RefusesToFollowCollisionsUnderAThermostat) {
   std::string scene = small_fluid("");
   scene += "[thermostat]\ntemperature = 1.0\nrate = 0.5\n";

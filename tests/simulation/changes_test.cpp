@@ -311,6 +311,22 @@ TEST(Changes, LeaveWallsThatStopWhereTheyAre) {
   EXPECT_LE(farthest, scene.box.upper.x() + 0.25 - simulation.disks().radius[0] * (1.0 - 1e-12));
 }
 
+TEST(Changes, LetAWallThatIsToVibrateAgainBeginAnew) {
+  for (const char* engine : {"auto", "textbook"}) {
+    Scene scene = gas_scene(20, 0.2, Boundary::walls);
+    scene.effects.walls[1].oscillation = Oscillation{WaveForm::sine, 0.1, 0.7, 0.3};
+    Simulation simulation = make_simulation(scene, engine);
+    simulation.run_until(0.7);
+    simulation.set_effects({});
+    simulation.run_until(1.5);
+    simulation.set_effects(scene.effects);
+    Simulation twin = make_simulation(simulation.scene(), simulation.state(), engine);
+    simulation.run_until(1.5 + 0.125);
+    twin.run_until(0.125);
+    EXPECT_NEAR(simulation.state().walls[1].position, twin.state().walls[1].position, 1e-12) << engine;
+  }
+}
+
 TEST(Changes, LeaveDisksThatStopGrowingAsLargeAsTheyAre) {
   Scene scene = gas_scene(20, 0.2, Boundary::periodic);
   scene.effects.growth = Growth{.rate = 0.0625};
@@ -427,6 +443,18 @@ TEST(Changes, AreRefusedByFixedStepsAndWithinSchedules) {
   hooks.start = [&](const State& state) { simulation.set_velocities(state.velocities); };
   EXPECT_THROW(run_schedule(simulation, hooks), std::logic_error);
   simulation.set_effects(scene.effects);  // it is not at work any more
+}
+
+TEST(Changes, AreRefusedAfterAScheduleWithinASchedule) {
+  Scene scene = gas_scene(24, 0.2, Boundary::walls);
+  scene.run.time = 1.0;
+  Simulation simulation = make_simulation(scene);
+  RunHooks hooks;
+  hooks.start = [&](const State& state) {
+    (void)run_schedule(simulation);
+    simulation.set_velocities(state.velocities);
+  };
+  EXPECT_THROW(run_schedule(simulation, hooks), std::logic_error);
 }
 
 TEST(SetVelocities, FindsTheBitsOfASceneThatBeginsSo) {

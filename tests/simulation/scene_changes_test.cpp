@@ -3,15 +3,20 @@
 // or is saved, and on however many threads.
 
 #include "live/live_run.hpp"
+#include "observe/mechanics.hpp"
+#include "support/effect_scenes.hpp"
 #include "support/scenes.hpp"
 
 #include <carom/observe.hpp>
 #include <carom/simulation.hpp>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -204,6 +209,76 @@ TEST(SceneChanges, SamplesOfThatTimeComeBefore) {
   Simulation twin = make_simulation(plain);
   twin.run_until(1.0);
   EXPECT_EQ(samples[2].velocities, twin.state().velocities) << "of time 1, not yet reversed";
+}
+
+TEST(SceneChanges, SamplesOfThatTimeToRoundingComeBefore) {
+  // 3 * 0.1 and 7 * 0.1 are later than 0.3 and 0.7 by their rounding, 5 * 0.1 is 0.5 and yet later as a product without rounding.
+  for (const int k : {3, 5, 7}) {
+    const Scene scene = parse_scene(gas(fmt::format("[[changes]]\ntime = 0.{}\nscale_velocities = 2.0\n", k),
+                                        "time = 1.0\nsample_every = 0.1\n[observe]\ntemperature = { every = 0.1 }"));
+    const auto doubled_after = [&](const auto& run) {
+      Simulation simulation = make_simulation(scene);
+      const double begun = energy_of(simulation);
+      int before = 0;
+      run(simulation, [&](const State& state) { before += kinetic_energy(simulation.disks(), state) < 2.0 * begun ? 1 : 0; });
+      return before - 1;
+    };
+    EXPECT_EQ(doubled_after([](Simulation& simulation, const auto& look) {
+                RunHooks hooks;
+                hooks.sample = [&](std::uint64_t, const State& state) { look(state); };
+                (void)run_schedule(simulation, hooks);
+              }),
+              k);
+    EXPECT_EQ(doubled_after([](Simulation& simulation, const auto& look) {
+                simulation.run_sampled(
+                    1.0, {.step = 0.1, .sample = [&](std::uint64_t, const State& state, const Totals&) { look(state); }});
+              }),
+              k);
+    EXPECT_EQ(doubled_after([](Simulation& simulation, const auto& look) {
+                for (std::uint64_t n = 0; n <= 10; ++n) simulation.run_until_sample(n, 0.1), look(simulation.state());
+              }),
+              k);
+    EXPECT_EQ(doubled_after([](Simulation& simulation, const auto& look) {
+                Observation observation(simulation);
+                for (int n = 0; n <= 10; ++n) {
+                  simulation.run_until(observation.next_sample());
+                  observation.sample(simulation);
+                  look(simulation.state());
+                }
+              }),
+              k);
+  }
+}
+
+TEST(SceneChanges, AStretchThatEndsWithThemLeavesThemToCome) {
+  const Scene scene = parse_scene(gas("[[changes]]\ntime = 0.3\nscale_velocities = 2.0\n"));
+  Simulation simulation = make_simulation(scene);
+  simulation.run_sampled(0.3, {.step = 0.1, .sample = {}});
+  EXPECT_EQ(simulation.time(), 0.3);
+  EXPECT_EQ(simulation.scene().changes.size(), 1U);
+}
+
+TEST(SceneChanges, AnEndThatIsNoTimeMakesNone) {
+  Simulation simulation = make_simulation(parse_scene(gas(some_changes)));
+  EXPECT_THROW(simulation.run_until(std::numeric_limits<double>::infinity()), std::invalid_argument);
+  EXPECT_EQ(simulation.time(), 0.0);
+  EXPECT_EQ(simulation.scene().changes.size(), 6U);
+}
+
+TEST(SceneChanges, TheWholeRunKnowsWhatAProgramHasSet) {
+  Simulation simulation = make_simulation(parse_scene(gas("[[changes]]\ntime = 3.0\nset = [\"collision.restitution=0.5\"]\n")));
+  EXPECT_TRUE(simulation.supports_collision_records());
+  Effects effects = simulation.scene().effects;
+  effects.gravity = Gravity{{0.0, -1.0}};
+  simulation.set_effects(effects);
+  EXPECT_FALSE(simulation.supports_collision_records()) << "paths bend";
+  EXPECT_TRUE(simulation.whole_scene().effects.gravity);
+  EXPECT_TRUE(simulation.whole_scene().effects.collision.restitution) << "which is to come";
+}
+
+TEST(SceneChanges, KeysOfTheStartAreRefusedHoweverTheyAreWritten) {
+  for (const char* key : {" box.x=[0, 5]", "disks=[]", " disks.0.radius = 0.1", "\\trun.time=1", "title =3"})
+    EXPECT_THROW(parse_scene(gas(fmt::format("[[changes]]\ntime = 1.0\nset = [\"{}\"]\n", key))), SceneError) << key;
 }
 
 TEST(SceneChanges, APartitionHoldsTheGasUntilItVanishes) {

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -156,6 +158,17 @@ TEST(Schedule, TheFirstLimitEndsARun) {
   Simulation counted_run = make_simulation(scene);
   EXPECT_EQ(run_schedule(counted_run).stopped, StopReason::collisions);
   EXPECT_EQ(counted_run.totals().pair, 100U);
+}
+
+TEST(Schedule, RecordsNothingAfterAHookHasThrown) {
+  Scene scene = gas_scene(40, 0.5, Boundary::periodic);
+  scene.run.time = 10.0;
+  Simulation simulation = make_simulation(scene);
+  RunHooks hooks;
+  hooks.events = [](std::span<const Event>) { throw std::runtime_error("no more"); };
+  EXPECT_THROW(run_schedule(simulation, hooks), std::runtime_error);
+  simulation.run_until(simulation.time() + 1.0);
+  EXPECT_TRUE(simulation.take_events().empty());
 }
 
 TEST(Schedule, HooksComeInOrderAndEventsBetweenTheirSamples) {

@@ -93,11 +93,11 @@ class Log {
   std::uint64_t pairs_ = 0;  ///< events of two disks so far
 };
 
-/// Returns how many of the scene's changes come before a sample. One of its own time does where the sample is later by the
-/// rounding of its step.
+/// Returns how many of the scene's changes come before a sample. One of its own time, to rounding, comes after it.
 std::size_t changes_before(const Scene& scene, const Instant& sample) {
   return static_cast<std::size_t>(std::ranges::count_if(scene.changes, [&](const Change& change) {
-    return Instant{change.time, 0.0} < sample;
+    const Instant time{change.time, 0.0};
+    return time < sample && !equal_to_rounding(time, sample);
   }));
 }
 
