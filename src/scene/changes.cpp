@@ -166,13 +166,13 @@ std::string changes_text(const Change& change) {
 }
 
 void require_changeable(const std::string& override_text, bool of_disks_too) {
-  const std::string key = override_text.substr(0, override_text.find_first_of("= "));
+  const std::string key(detail::key_of_override(override_text));
   for (const char* const table : {"box", "run", "output", "observe", "title", "changes"})
     if (key == table || key.starts_with(std::string(table) + "."))
       throw SceneError(
           {}, fmt::format("{} belongs to the start of a run; a change may set effects{}", key,
                           of_disks_too ? ", and radius and mass of disks" : ", the tables from [collision] to [non_additivity]"));
-  if (key.starts_with("disks.") && !key.ends_with(".radius") && !key.ends_with(".mass"))
+  if (key == "disks" || (key.starts_with("disks.") && !key.ends_with(".radius") && !key.ends_with(".mass")))
     throw SceneError({}, fmt::format("{} belongs to the start of a run; a change may set radius and mass of disks", key));
 }
 

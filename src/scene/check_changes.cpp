@@ -3,6 +3,7 @@
 
 #include "scene/changes.hpp"
 #include "scene/checks.hpp"
+#include "scene/document.hpp"
 #include "scene/effect_traits.hpp"
 #include "scene/walls.hpp"
 
@@ -32,8 +33,8 @@ void check_kind(const Change& change, const std::string& path) {
                                                           path, scale->factor));
   if (const auto* set = std::get_if<SetKeys>(&change.what))
     for (const std::string& text : set->overrides)
-      if (text.starts_with("disks."))
-        throw Refusal(path + ".set", fmt::format("{}.set has {}; {}", path, text.substr(0, text.find('=')), advice_on_disks));
+      if (const std::string_view key = key_of_override(text); key == "disks" || key.starts_with("disks."))
+        throw Refusal(path + ".set", fmt::format("{}.set has {}; {}", path, key, advice_on_disks));
 }
 
 void check_time(const Scene& scene, std::size_t k, const std::string& path) {

@@ -217,11 +217,13 @@ class Walk {
 
 bool is_override(const std::string& source) { return source.starts_with(prefix); }
 
+std::string_view key_of_override(std::string_view text) { return trimmed(text.substr(0, text.find('='))); }
+
 void apply_override(toml::table& document, const std::string& text) {
   const Location where{name_of(text), 0, 0};
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos) throw SceneError(where, fmt::format("there is no \"=\" in it; {}", shape));
-  const std::string_view key = trimmed(std::string_view(text).substr(0, equals));
+  const std::string_view key = key_of_override(text);
   const std::string_view value = trimmed(std::string_view(text).substr(equals + 1));
   if (value.empty()) throw SceneError(where, fmt::format("there is no value behind \"=\"; {}", shape));
   toml::table parsed = parse_value(value, where);

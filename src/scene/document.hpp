@@ -22,4 +22,7 @@ bool is_override(const std::string& source);
 /// are made where they are missing. Throws SceneError where the text has not that form, or the way is barred.
 void apply_override(toml::table& document, const std::string& text);
 
+/// Returns the key of an override "key = value", without the blanks round it.
+[[nodiscard]] std::string_view key_of_override(std::string_view text);
+
 }  // namespace carom::detail
