@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 namespace carom::detail {
 namespace {
@@ -53,9 +55,23 @@ void check_end(const Scene& scene) {
                                    key, scene.disk_count()));
 }
 
+/// TOML has no whole numbers beyond those of 64 bits with a sign, and the scene of a run is written into its files.
+void check_whole_numbers(const Run& run) {
+  const auto require_written = [](const char* path, std::uint64_t value) {
+    constexpr auto most = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+    if (value > most)
+      throw Refusal(path,
+                    fmt::format("{} is {}; it must be a whole number from 0 to {}, the largest of TOML", path, value, most));
+  };
+  require_written("run.seed", run.seed);
+  require_written("run.collisions", run.collisions.value_or(0));
+  require_written("run.sample_every.collisions", run.sample_every_collisions.value_or(0));
+}
+
 }  // namespace
 
 void check_run(const Scene& scene) {
+  check_whole_numbers(scene.run);
   check_samples(scene);
   if (const auto& equilibrate = scene.run.equilibrate;
       equilibrate && equilibrate->time.has_value() == equilibrate->collisions_per_disk.has_value())

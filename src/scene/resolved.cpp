@@ -87,7 +87,7 @@ struct PutVelocities {
 void put_property(Buffer& out, std::string_view key, double of_all, const std::vector<double>& of_each, const Species& species) {
   // A value of zero stands for none. A start file has a column then, and so may stay out of the scene.
   const bool in_file = std::holds_alternative<FilePositions>(species.positions) || (of_each.empty() && species.count > 0);
-  if (of_all > 0.0) {
+  if (of_all > 0.0 && of_each.empty()) {  // where both are given, each disk has its own
     put(out, "{} = {}\n", key, number_text(of_all));
   } else if (in_file) {
     put(out, "# {}: a column of the start file\n", key);
@@ -167,8 +167,10 @@ std::string resolved_toml(const Scene& scene) {
   for (const Species& species : scene.species) put_species(out, species);
   put(out, "{}", detail::effects_toml(scene.effects));
   put_run(out, scene.run);
-  put(out, "\n[output]\ntrajectory = {}\nxyz = {}\ncsv = {}\nevents = {}\nunwrapped = {}\n", scene.output.trajectory,
-      scene.output.xyz, scene.output.csv, scene.output.events, scene.output.unwrapped);
+  // Without samples there are no files of them, whatever a program has set.
+  const bool sampled = scene.run.is_sampled();
+  put(out, "\n[output]\ntrajectory = {}\nxyz = {}\ncsv = {}\nevents = {}\nunwrapped = {}\n", sampled && scene.output.trajectory,
+      sampled && scene.output.xyz, sampled && scene.output.csv, scene.output.events, sampled && scene.output.unwrapped);
   put_observe(out, scene.observe);
   for (const Change& change : scene.changes) put(out, "\n{}", changes_text(change));
   return fmt::to_string(out);

@@ -83,6 +83,23 @@ TEST(Resolved, ASceneMadeInAProgramSurvives) {
   EXPECT_EQ(first_difference(parse_scene(resolved_toml(scene)), named), "");
 }
 
+TEST(Resolved, WhatAFileCannotSayOtherwiseSurvives) {
+  Scene scene{.box = {.upper = {20.0, 10.0}, .boundary = {Boundary::periodic, Boundary::walls}},
+              .species = {{.name = "two", .count = 2, .radius = 9.0, .mass = 1.0, .radii = {0.5, 0.25}}},
+              .run = {.time = 10.0}};
+  const Scene again = parse_scene(resolved_toml(scene));
+  EXPECT_FALSE(again.output.trajectory) << "there are no samples";
+  EXPECT_EQ(again.species[0].radii, scene.species[0].radii) << "the radius of all is that of none";
+  scene.run.seed = std::uint64_t{1} << 63;
+  try {
+    check(scene);
+    FAIL() << "TOML has no such number";
+  } catch (const SceneError& error) {
+    EXPECT_EQ(error.sentence(),
+              "run.seed is 9223372036854775808; it must be a whole number from 0 to 9223372036854775807, the largest of TOML");
+  }
+}
+
 TEST(Resolved, RegionsSurvive) {
   for (const char* region :
        {"{ random = { x = [0.1, 4.9], y = [0.2, 7.7] } }", "{ random = { centre = [5.1, 3.9], radius = 3.3 } }"}) {
