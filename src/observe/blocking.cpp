@@ -68,7 +68,8 @@ void Blocking::Level::add(double x, double w) {
 
 double Blocking::Level::variance_of_mean(double ratio) const {
   const double n = static_cast<double>(blocks);
-  return std::max(0.0, xx - 2.0 * ratio * xw + ratio * ratio * ww) / (n * (n - 1.0));
+  const double squares = xx - 2.0 * ratio * xw + ratio * ratio * ww;
+  return squares < 0.0 ? 0.0 : squares / (n * (n - 1.0));
 }
 
 void Blocking::add(double x, double weight) {
@@ -129,6 +130,7 @@ void Blocking::find_error(Estimate& estimate, std::span<const Level> levels, dou
     const double variance =
         told * left_across_blocks(first > 0.0 ? told / first : 1.0, variance_of_mean_of(1ULL << level, known));
     const double s = white > 0.0 ? variance / white : 1.0;
+    if (!std::isfinite(variance)) return;  // squares of very large samples overflow
     estimate.error = std::sqrt(variance) / std::abs(scale);
     estimate.blocks = levels[level].blocks;
     estimate.lower_bound = told > 2.0 * first && told > first * most_by_chance(estimate.blocks);

@@ -202,6 +202,14 @@ TEST(Blocking, FewSamplesHaveAMeanAndNoError) {
   EXPECT_FALSE(blocking.estimate()->error);
 }
 
+TEST(Blocking, SamplesWhoseSquaresAreNoNumbersHaveNoError) {
+  Blocking blocking;
+  for (int k = 0; k < 100; ++k) blocking.add(1e200 * k);
+  ASSERT_TRUE(blocking.estimate());
+  EXPECT_NEAR(blocking.estimate()->mean, 49.5e200, 1e188);
+  EXPECT_FALSE(blocking.estimate()->error);
+}
+
 TEST(Blocking, RatioOfProportionalSumsHasNoError) {
   Blocking blocking;
   Noise noise(3);
