@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <stdexcept>
 
 namespace carom {
 namespace {
@@ -24,9 +25,13 @@ class Fnv {
 }  // namespace
 
 std::string state_hash(const State& state) {
+  const Eigen::Index disks = state.positions.cols();
+  if (state.velocities.cols() != disks || (state.spins.size() != 0 && state.spins.size() != disks))
+    throw std::invalid_argument(fmt::format("a state of {} positions has {} velocities and {} spins; give one of each per disk",
+                                            disks, state.velocities.cols(), state.spins.size()));
   Fnv hash;
   hash.add(state.time);
-  for (Eigen::Index i = 0; i < state.positions.cols(); ++i) {
+  for (Eigen::Index i = 0; i < disks; ++i) {
     for (const double coordinate : state.positions.col(i)) hash.add(coordinate);
     for (const double component : state.velocities.col(i)) hash.add(component);
     if (state.spins.size() > 0) hash.add(state.spins[i]);

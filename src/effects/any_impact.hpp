@@ -15,6 +15,7 @@
 #include <carom/effects.hpp>
 #include <carom/state.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <stdexcept>
@@ -186,6 +187,8 @@ class AnyImpact {
     own_rule_(contact);
     const Vec2<Real> v_a = contact.velocity.template cast<Real>(), v_b = contact.partner_velocity.template cast<Real>();
     if (!v_a.allFinite() || !v_b.allFinite()) refuse(a, b, "gives velocities that are not finite to");
+    if (!(std::max(contact.velocity.norm(), contact.partner_velocity.norm()) < fastest_by_rule))
+      refuse(a, b, "gives velocities that are too large to compute with to");
     const Eigen::Vector2d apart = contact.velocity - contact.partner_velocity;
     if (normal.dot(apart) < -least_parting * apart.norm()) refuse(a, b, "leaves approaching each other");
 
@@ -201,6 +204,9 @@ class AnyImpact {
     result.lost = -result.energy;
     return result;
   }
+
+  /// With lengths of up to 1e10, squares of what follows from a velocity are still numbers.
+  static constexpr double fastest_by_rule = 1e140;
 
   [[noreturn]] void refuse(const Body& a, const Body& b, const char* what) const {
     throw std::domain_error("the collision rule " + std::string(what) + " disks " + std::to_string(id(a)) + " and " +

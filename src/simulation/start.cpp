@@ -173,6 +173,9 @@ void require_between_walls(const Scene& scene, const State& state) {
   const Box box = box_of(scene.box, state);
   for (const int axis : {0, 1})
     if (!box.periodic(axis)) require_inside(scene, state, axis, box.lower[axis], box.upper[axis], "put it between the walls");
+  if (const auto& circle = scene.effects.circle; circle && state.positions.size() > 0)
+    if ((state.positions.colwise() - circle->centre).colwise().norm().maxCoeff() > circle->radius)
+      throw std::invalid_argument("the given state has a position outside the circular box; put it inside");
 }
 
 }  // namespace carom

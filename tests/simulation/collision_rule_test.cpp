@@ -134,6 +134,12 @@ TEST(OwnRule, IsHeldToNumbersThatAreFiniteAndDisksThatPart) {
     EXPECT_THAT(said([](CollidingPair& contact) { contact.velocity[0] = std::numeric_limits<double>::quiet_NaN(); }),
                 HasSubstr("the collision rule gives velocities that are not finite to disks"));
     EXPECT_THAT(said([](CollidingPair&) {}), HasSubstr("the collision rule leaves approaching each other disks"));
+    EXPECT_THAT(said([](CollidingPair& contact) {
+                  smooth(1.0)(contact);
+                  contact.velocity *= 1e145;
+                  contact.partner_velocity *= 1e145;
+                }),
+                HasSubstr("the collision rule gives velocities that are too large to compute with to disks"));
     simulation.set_collision_rule([](CollidingPair&) { throw std::length_error("thrown by the rule"); });
     EXPECT_THROW(simulation.run_until(10.0), std::length_error);
     simulation.set_collision_rule(smooth(1.0));

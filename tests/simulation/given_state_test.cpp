@@ -63,6 +63,15 @@ TEST(GivenState, OneOutsideWallsIsRefused) {
   }
 }
 
+TEST(GivenState, OneOutsideACircularBoxIsRefused) {
+  const Scene scene = parse_scene(
+      "[box]\ncircle = { centre = [0, 0], radius = 5 }\n[[disks]]\ncount = 1\nradius = 0.5\nmass = 1\n"
+      "positions = [[0, 0]]\nvelocities = { speed = 1 }\n[collision]\nrule = \"specular\"\n[run]\ntime = 1\n");
+  State state = make_simulation(scene).state();
+  state.positions.col(0) = Eigen::Vector2d(4.5, 4.5);
+  EXPECT_THROW(make_simulation(scene, state), std::invalid_argument) << "in a corner of the square round it";
+}
+
 TEST(GivenState, WhatEffectsGoOnFromIsFinite) {
   Scene scene = gas_scene(4, 0.2, Boundary::walls);
   State good = make_simulation(scene).state();
