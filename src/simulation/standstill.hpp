@@ -149,6 +149,7 @@ class Standstill {
     if (done < course.block_length) return false;
     const State state = engine.state();
     const double fastest = state.velocities.size() > 0 ? state.velocities.cwiseAbs().maxCoeff() : 0.0;
+    if (fastest == 0.0) return false;                            // at rest there is time for everything
     const double way = fastest * now.time.since<double>(began);  // of the fastest, in `done` events of all
     const double of_one = static_cast<double>(done) / static_cast<double>(std::max<std::size_t>(disks_, 1));
     return way < of_one * least_way() * smallest_ * state.scale;

@@ -253,6 +253,13 @@ TEST(EnginesStandstill, DisksThatJamAtOneInstantAreNamedAndNoOthers) {
   EXPECT_THAT(result.stopped_disks, ElementsAre(1, 2));
 }
 
+TEST(EnginesStandstill, DisksAtRestHaveTimeForEverything) {
+  Scene scene = scene_of_placed(box_of(10.0, 10.0, Boundary::walls), {{{5.0, 5.0}, {0.0, 0.0}}});
+  scene.effects.walls[1].oscillation = Oscillation{WaveForm::sine, 0.5, 1.0};
+  Simulation simulation = make_simulation(scene);
+  EXPECT_EQ(simulation.run_until(2e7), StopReason::time) << "of a wall that vibrates and reaches nobody";
+}
+
 TEST(StoppedDisks, ARunThatEndsInTimeNamesNobody) {
   Scene scene = gas_scene(4, 0.1, Boundary::walls);
   scene.run.time = 1.0;
