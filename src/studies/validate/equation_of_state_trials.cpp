@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -163,8 +164,10 @@ class RareMomentum final : public Observable {
 
 /// Calls one_run(k, effort) for k = 0 to count - 1, by all processors. Throws Interrupted.
 void share_runs(std::size_t count, const Effort& effort, const std::function<void(std::size_t k, const Effort& mine)>& one_run) {
+  std::atomic<std::size_t> finished = 0;
   const auto work = [&](std::size_t k, const std::function<bool()>& go_on) {
     one_run(k, {.full = effort.full, .seed = effort.seed, .proceed = go_on});
+    effort.has_done(static_cast<double>(++finished) / static_cast<double>(count));
   };
   if (!in_threads(count, std::max(1U, std::thread::hardware_concurrency()), effort.proceed, work)) throw Interrupted{};
 }
@@ -306,7 +309,7 @@ void add_equation_of_state(std::vector<Trial>& trials) {
   {
     const theory::ReferencePressure& known = theory::li_2022.front();
     const std::string name = fmt::format("pressure-{}-disks-{:.2f}-five-digits", known.disks, known.packing_fraction);
-    trials.push_back({name, group, true, [=](const Effort& effort) { return five_digits(name, known, effort); }, true});
+    trials.push_back({name, group, true, [=](const Effort& effort) { return five_digits(name, known, effort); }, true, 40.0});
   }
   for (const double alpha : {1e-2, 1e-3}) {
     const std::string name = fmt::format("crystal-{:g}", alpha);
@@ -314,7 +317,7 @@ void add_equation_of_state(std::vector<Trial>& trials) {
   }
   for (const theory::ReferencePressure& known : theory::li_2022_transition) {
     const std::string name = fmt::format("transition-{:.3f}", known.packing_fraction);
-    trials.push_back({name, group, true, [=](const Effort& effort) { return transition(name, known, effort); }, true});
+    trials.push_back({name, group, true, [=](const Effort& effort) { return transition(name, known, effort); }, true, 20.0});
   }
 }
 

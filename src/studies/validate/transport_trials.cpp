@@ -140,6 +140,7 @@ Correlations correlations_of(const Gas& gas, std::size_t replicas, const Effort&
     all.diffusion.push_back(column("diffusion"));
     all.values.push_back(column("correlation"));
     for (double& value : all.values.back()) value *= 0.5;
+    effort.has_done(static_cast<double>(r + 1) / static_cast<double>(replicas));
   }
   result.scenes.resize(1);  // the others differ in the seed
   return all;
@@ -235,7 +236,8 @@ void add_transport(std::vector<Trial>& trials) {
   trials.push_back(
       {"long-time-tail", group, false, [](const Effort& effort) { return long_time_tail("long-time-tail", effort); }});
   trials.push_back({"long-time-tail-million", group, true,
-                    [](const Effort& effort) { return long_time_tail_of_a_million("long-time-tail-million", effort); }, true});
+                    [](const Effort& effort) { return long_time_tail_of_a_million("long-time-tail-million", effort); }, true,
+                    10.0});
 }
 
 }  // namespace carom::validation

@@ -14,7 +14,8 @@ namespace carom::validation {
 struct Effort {
   bool full = false;
   std::uint64_t seed = 1;
-  std::function<bool()> proceed = {};  ///< false: stop
+  std::function<bool()> proceed = {};                             ///< false: stop
+  std::function<void(double fraction)> has_done = [](double) {};  ///< is told, by any thread, how much of a long trial is done
 
   /// Returns the number of collisions: `quick` in a quick validation, twenty times as many in a full one.
   [[nodiscard]] double collisions(double quick) const { return full ? 20.0 * quick : quick; }
@@ -31,6 +32,7 @@ struct Trial {
   bool only_full = false;
   std::function<TrialResult(const Effort&)> run;
   bool on_all_processors = false;  ///< its runs share the processors
+  double length = 1.0;             ///< processor time in a full validation over that of most trials: for progress
 };
 
 // One file each.

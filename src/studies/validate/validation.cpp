@@ -11,9 +11,9 @@
 #include <cmath>
 #include <exception>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -98,7 +98,7 @@ class RunningTrials {
       const auto known = std::find_if(before.results.begin(), before.results.end(),
                                       [&](const TrialResult& result) { return result.trial == trials_[k].name; });
       if (known != before.results.end())
-        found_[k] = *known, ++finished_;
+        found_[k] = *known, finished_ += trials_[k].length;
       else
         (trials_[k].on_all_processors ? alone_ : together_).push_back(k);
     }
@@ -129,13 +129,17 @@ class RunningTrials {
   void run_one(std::size_t k, const std::function<bool()>& proceed) {
     {
       const std::scoped_lock lock(mutex_);
-      running_.insert(k);
+      running_[k] = 0.0;
     }
     const auto start = std::chrono::steady_clock::now();
     TrialResult result{.trial = trials_[k].name};
     try {
       if (!proceed()) throw validation::Interrupted{};
-      result = trials_[k].run({.full = options_.full, .seed = options_.seed, .proceed = proceed});
+      const auto has_done = [this, k](double fraction) {
+        const std::scoped_lock lock(mutex_);
+        running_[k] = std::max(running_[k], fraction);
+      };
+      result = trials_[k].run({.full = options_.full, .seed = options_.seed, .proceed = proceed, .has_done = has_done});
     } catch (const validation::Interrupted&) {
       throw;
     } catch (const std::exception& error) {
@@ -149,7 +153,7 @@ class RunningTrials {
     if (hooks_.done) hooks_.done(result);
     found_[k] = std::move(result);
     running_.erase(k);
-    ++finished_;
+    finished_ += trials_[k].length;
   }
 
   bool proceed() {
@@ -158,8 +162,11 @@ class RunningTrials {
     double fraction;
     {
       const std::scoped_lock lock(mutex_);
-      if (!running_.empty()) doing = trials_[*running_.begin()].name;
-      fraction = static_cast<double>(finished_) / static_cast<double>(trials_.size());
+      if (!running_.empty()) doing = trials_[running_.begin()->first].name;
+      double done = finished_, all = 0.0;
+      for (const auto& [k, part] : running_) done += part * trials_[k].length;
+      for (const validation::Trial& trial : trials_) all += trial.length;
+      fraction = done / all;
     }
     return hooks_.proceed(doing, fraction);
   }
@@ -170,8 +177,8 @@ class RunningTrials {
   std::vector<std::size_t> together_, alone_;  ///< numbers of the trials that are not known
   std::mutex mutex_;                           ///< of what follows
   std::vector<std::optional<TrialResult>> found_;
-  std::set<std::size_t> running_;
-  std::size_t finished_ = 0;
+  std::map<std::size_t, double> running_;  ///< how much of each trial that runs is done, from 0 to 1
+  double finished_ = 0.0;                  ///< lengths of the trials that are
 };
 
 }  // namespace
