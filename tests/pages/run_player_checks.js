@@ -4,6 +4,8 @@
   const options = [...byId("colour").options].map((option) => option.value);
   check("all colourings are offered", options.join() === "speed,species,collisions,id,psi6,psi6_angle,neighbours");
 
+  const clock = [0, 0.25, 100, 100000000, 1.2e10, 1.5e-7, 1 / 3].map(clockText).join(" ");
+  check("the clock keeps the zeros of whole numbers and of exponents", clock === "0 0.25 100 100000000 12000000000 1.5e-7 0.333333333");
   const legend = () => [...document.querySelectorAll("#legend span, #legend b")].map((element) => element.textContent).join();
   give("colour", "psi6_angle", "change");
   check("axes have the legend of the film", legend() === "−30°,30°");

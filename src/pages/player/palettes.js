@@ -56,3 +56,6 @@ function shortNumber(value) {
   if (size >= 1e5 || size < 1e-3) return value.toExponential(2).replace("e", "·10^").replace("^+", "^");
   return String(Number(value.toPrecision(4)));
 }
+
+/// Returns a time with at most nine digits: 0.25, 100000000, 1.5e-7.
+const clockText = (time) => String(Number(time.toPrecision(9)));

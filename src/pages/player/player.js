@@ -15,7 +15,7 @@ function frame(seconds) {
   const isFilm = wasPlaying && Math.abs(time - before) <= 1.001 * settings.rate * seconds;  // false where playing has started again
   followView(moment);
   panel.show(isFilm ? before : time);
-  say("time", `${time.toPrecision(9).replace(/\.?0+$/, "")} / ${shortNumber(duration)}`);
+  say("time", `${clockText(time)} / ${shortNumber(duration)}`);
   say("followed", settings.followed >= 0 ? `disk ${settings.followed}: ${panel.ofDisk(settings.followed)}` : "click a disk to follow it");
   showLegendEnds();
   showScrub();
