@@ -160,6 +160,34 @@ TEST(BrowserPlayer, FindsTheCellsOfPeriodicShearedAndCircularBoxes) {
   }
 }
 
+TEST(BrowserPlayer, ImagesOfAShearedBoxFillTheView) {
+  if (!has_browser()) GTEST_SKIP() << no_browser;
+  const Scene scene = disks_in("x = [0.0, 10.0]\ny = [-4.0, 4.0]\nboundary = \"periodic\"", "[shear]\nrate = 0.3\n");
+  const Visit visit = played(scene, R"(
+    carom.seek(3.3);
+    zoom(0.3);
+    const shifts = visibleShifts(true, moment);
+    const lengths = box.lengths;
+    // Of a place in box lengths from the lower left corner.
+    const isInside = (shares) => shares.every((share) => share >= -1e-9 && share <= 1 + 1e-9);
+    let [seen, holes] = [0, 0];
+    for (let px = 0; px <= view.width; px += 10)
+      for (let py = 0; py <= view.height; py += 10) {
+        const [x, y] = [(placeX(px) - box.lower[0]) / lengths[0], (placeY(py) - box.lower[1]) / lengths[1]];
+        if (Math.abs(x - 0.5) > 4.5 || Math.abs(y - 0.5) > 4.5) continue;  // farther than four boxes away
+        ++seen;
+        if (!shifts.some(([a, b]) => isInside([x - a - (b * moment.displacement) / lengths[0], y - b]))) ++holes;
+      }
+    document.documentElement.dataset.displacement = moment.displacement;
+    document.documentElement.dataset.seen = seen;
+    document.documentElement.dataset.holes = holes;
+)");
+  expect_clean(visit);
+  EXPECT_GT(std::stod(data(visit, "displacement")), 1.0);
+  EXPECT_GT(std::stoi(data(visit, "seen")), 1000);
+  EXPECT_EQ(data(visit, "holes"), "0");
+}
+
 TEST(BrowserPlayer, DrawsDisksFromSamplesAtTheirInstantsAndSaysSo) {
   if (!has_browser()) GTEST_SKIP() << no_browser;
   const Scene scene = parse_scene(watched_gas, "gas", {"thermostat.temperature=1.0", "thermostat.rate=1.0"});

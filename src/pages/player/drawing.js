@@ -238,7 +238,7 @@ function drawMoment(moment, target = stageContext) {
   context.fill();
   colourDisks(moment);
   const showsImages = settings.ghosts && (box.periodic[0] || box.periodic[1]);
-  const shifts = visibleShifts(showsImages);
+  const shifts = visibleShifts(showsImages, moment);
   context.save();
   if (!showsImages) {
     boxPath(moment);

@@ -68,20 +68,23 @@ function resizeView() {
   if (isFitted && settings.followed < 0) fitView();
 }
 
-/// Returns the shifts, in box lengths, of the images to draw. With `round` these are all that the view reaches, else only those
-/// that an edge of the box cuts off.
-function visibleShifts(all) {
-  const most = 4;
+/// Returns the shifts, in box lengths, of the images to draw; those above a sheared box are displaced besides. With `all` these are
+/// all that the view reaches, else only those that an edge of the box cuts off.
+function visibleShifts(all, moment) {
+  const most = 4;  // boxes to each side
   const range = (axis, low, high) => {
-    if (!box.periodic[axis]) return [0, 0];
-    if (!all) return [-1, 1];
-    const count = (value) => Math.min(Math.max(value, -most), most);
-    return [count(Math.floor((low - box.lower[axis]) / box.lengths[axis])), count(Math.floor((high - box.lower[axis]) / box.lengths[axis]))];
+    if (!box.periodic[axis]) return [0, 1];
+    if (!all) return [-0.5, 1.5];
+    const count = (value) => Math.min(Math.max((value - box.lower[axis]) / box.lengths[axis], -most), most + 1);
+    return [count(low), count(high)];
   };
   const [left, right] = range(0, placeX(0), placeX(view.width));
   const [bottom, top] = range(1, placeY(view.height), placeY(0));
   const shifts = [];
-  for (let b = bottom; b <= top; ++b) for (let a = left; a <= right; ++a) shifts.push([a, b]);
+  for (let b = Math.floor(bottom); b < top; ++b) {
+    const aside = (b * moment.displacement) / box.lengths[0];
+    for (let a = Math.floor(left - aside); a < right - aside; ++a) shifts.push([a, b]);
+  }
   return shifts;
 }
 

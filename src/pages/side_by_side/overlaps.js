@@ -58,7 +58,7 @@ function fillLens(i, j, moment, shift) {
 /// colours too; its outer edge is that of the disk.
 function drawOverlaps(moment, numbers) {
   if (numbers.length === 0) return;
-  const shifts = visibleShifts(settings.ghosts);
+  const shifts = visibleShifts(settings.ghosts, moment);
   const concerned = new Set();
   for (const k of numbers) concerned.add(overlapFirst[k]).add(overlapSecond[k]);
   context.save();
