@@ -2,6 +2,7 @@
 
 #include "app/movie_plan.hpp"
 #include "io/partial_file.hpp"
+#include "pages/clock_format.hpp"
 #include "pages/playback.hpp"
 #include "terminal/command.hpp"
 #include "terminal/progress.hpp"
@@ -15,7 +16,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -43,18 +43,6 @@ Look look_of(const MovieOptions& options, const MoviePlan& plan, const RunReader
     throw UsageError(
         fmt::format("--colour collisions: the collisions of {} are not known; run the scene with --events", options.directory));
   return look;
-}
-
-/// Returns so many decimals that every frame shows another time, or for one picture its time to a thousandth of itself.
-int decimals_for(const std::vector<double>& times) {
-  constexpr int most = 9;
-  if (times.size() > 1) return std::clamp(static_cast<int>(std::ceil(-std::log10(times[1] - times[0]))), 0, most);
-  const double time = times.front();
-  for (int decimals = 0; decimals < most; ++decimals) {
-    const double unit = std::pow(10.0, decimals);
-    if (std::abs(std::round(time * unit) / unit - time) <= 1e-3 * std::abs(time)) return decimals;
-  }
-  return most;
 }
 
 /// False where it was interrupted.
@@ -88,7 +76,7 @@ ExitCode draw(const MovieOptions& options) {
   const Look look = look_of(options, plan, *run, playback->exact());
   const StopRequest stop;
   Ranges ranges = ranges_of(*playback, times.front(), times.back());
-  ranges.decimals = decimals_for(times);
+  ranges.clock = clock_format(times);
   const Painter painter(run->scene(), run->disks(), run->species_names(), look, ranges,
                         size_for(plan, ranges.extent, look.caption));
   const auto file = as_usage_error([&] { return std::make_unique<PartialFile>(plan.path); });

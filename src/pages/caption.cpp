@@ -118,7 +118,7 @@ void draw_caption(cairo_t* context, const Subject& subject, const Moment& moment
   cairo_select_font_face(context, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(context, at.letters);
   const double baseline = at.caption_top + 1.1 * at.letters, left = at.size.width - at.caption_right;
-  const std::string clock = fmt::format("t = {:.{}f}", moment.time, subject.ranges.decimals);
+  const std::string clock = "t = " + clock_text(moment.time, subject.ranges.clock);
   set_colour(context, theme(subject.look.dark).ink);
   write(context, clock, left, baseline);
   const double from = left + width_of(context, clock) + at.letters;

@@ -1,6 +1,7 @@
 #pragma once
 // Draws moments of a run, true to scale: as the pixels of a frame, or as a PNG, SVG or PDF file.
 
+#include "pages/clock_format.hpp"
 #include "pages/layout.hpp"
 #include "pages/moment.hpp"
 #include "pages/palette.hpp"
@@ -37,7 +38,7 @@ struct Ranges {
   double typical_speed = 1.0;      ///< the largest root mean square speed
   double fastest = 1.0;            ///< speed at the end of the colour scale
   double most_collisions = 1.0;    ///< largest number of collisions of any disk
-  int decimals = 2;                ///< decimals of the clock
+  ClockFormat clock = {};
 };
 /// Looks at a few moments between two times.
 [[nodiscard]] Ranges ranges_of(Playback& playback, double from, double to);
