@@ -4,6 +4,7 @@
 #include "io/partial_file.hpp"
 #include "pages/clock_format.hpp"
 #include "pages/playback.hpp"
+#include "pages/replay.hpp"
 #include "terminal/command.hpp"
 #include "terminal/progress.hpp"
 #include "terminal/reading_process.hpp"
@@ -36,12 +37,18 @@ std::optional<std::int32_t> species_of(const MovieOptions& options, const RunRea
       fmt::format("--trails-of {}: this run has no such species; it has {}", options.trails_of, fmt::join(names, ", ")));
 }
 
-Look look_of(const MovieOptions& options, const MoviePlan& plan, const RunReader& run, bool exact) {
+/// Returns why its collisions cannot be replayed, with an event log or without one.
+std::string why_no_collisions(const RunReader& run, const Playback& playback) {
+  const std::string never = why_no_replay(run.scene());
+  return never.empty() ? playback.why_not() : never;
+}
+
+Look look_of(const MovieOptions& options, const MoviePlan& plan, const RunReader& run, const Playback& playback) {
   Look look{.dark = options.dark, .velocities = options.velocities, .caption = !options.bare};
   look.colouring = plan.colouring.value_or(run.species_names().size() > 1 ? Colouring::species : Colouring::speed);
-  if (look.colouring == Colouring::collisions && !exact)
-    throw UsageError(
-        fmt::format("--colour collisions: the collisions of {} are not known; run the scene with --events", options.directory));
+  if (look.colouring == Colouring::collisions && !playback.exact())
+    throw UsageError(fmt::format("--colour collisions: the collisions of {} are not known: {}", options.directory,
+                                 why_no_collisions(run, playback)));
   return look;
 }
 
@@ -73,7 +80,7 @@ ExitCode draw(const MovieOptions& options) {
   const auto playback = as_usage_error([&] { return std::make_unique<Playback>(*run, wanted); });
   limit.reset();
   const std::vector<double> times = picture_times(options, plan, playback->begin(), playback->end(), playback->last_sample());
-  const Look look = look_of(options, plan, *run, playback->exact());
+  const Look look = look_of(options, plan, *run, *playback);
   const StopRequest stop;
   Ranges ranges = ranges_of(*playback, times.front(), times.back());
   ranges.clock = clock_format(times);

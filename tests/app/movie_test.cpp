@@ -89,11 +89,20 @@ TEST_F(MovieCommand, DrawsPicturesAndSaysOfWhen) {
 
 TEST_F(MovieCommand, SaysWhenItInterpolates) {
   run_scene({});
-  refused({"movie", "gas", "-o", "coloured.svg", "--colour", "collisions"}, "run the scene with --events");
+  refused({"movie", "gas", "-o", "coloured.svg", "--colour", "collisions"},
+          "the collisions of gas are not known: the run kept no event log (carom run --events)");
   const Outcome outcome = carom({"movie", "gas", "-o", "picture.png", "--size", "64", "-q"});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.out, IsEmpty());
   EXPECT_THAT(outcome.err, HasSubstr("between samples the disks are drawn on straight lines: the run kept no event log"));
+}
+
+TEST_F(MovieCommand, SaysWhatNoEventLogHolds) {
+  for (const std::string events : {"output.events=false", "output.events=true"}) {
+    run_scene({"--force", "--set", "thermostat.temperature=1.0", "--set", "thermostat.rate=1.0", "--set", events});
+    refused({"movie", "gas", "-o", "coloured.svg", "--colour", "collisions"},
+            "the collisions of gas are not known: the thermostat changes velocities between collisions");
+  }
 }
 
 TEST_F(MovieCommand, RefusesWhatIsNoFinishedRun) {
