@@ -43,6 +43,19 @@ std::string why_no_collisions(const RunReader& run, const Playback& playback) {
   return never.empty() ? playback.why_not() : never;
 }
 
+DrawableTimes drawable_times(const RunReader& run, const Playback& playback) {
+  DrawableTimes times{.begin = playback.begin(), .end = playback.end(), .last_sample = playback.last_sample(), .words = {}};
+  if (playback.exact() || run.end() <= times.end) {
+    times.words = fmt::format("the run goes from time {} to {}", times.begin, times.end);
+    return times;
+  }
+  const bool events_help = !run.has_event_log() && why_no_replay(run.scene()).empty();
+  times.words =
+      fmt::format("its samples go from time {} to {}, and the run to {}; to draw its end, run the scene with {}", times.begin,
+                  times.end, run.end(), events_help ? "--events" : "a sample_every of which its time is a multiple");
+  return times;
+}
+
 Look look_of(const MovieOptions& options, const MoviePlan& plan, const RunReader& run, const Playback& playback) {
   Look look{.dark = options.dark, .velocities = options.velocities, .caption = !options.bare};
   look.colouring = plan.colouring.value_or(run.species_names().size() > 1 ? Colouring::species : Colouring::speed);
@@ -79,7 +92,7 @@ ExitCode draw(const MovieOptions& options) {
   const PlaybackOptions wanted{.trail = options.trails.value_or(0.0), .trails_of = species_of(options, *run)};
   const auto playback = as_usage_error([&] { return std::make_unique<Playback>(*run, wanted); });
   limit.reset();
-  const std::vector<double> times = picture_times(options, plan, playback->begin(), playback->end(), playback->last_sample());
+  const std::vector<double> times = picture_times(options, plan, drawable_times(*run, *playback));
   const Look look = look_of(options, plan, *run, *playback);
   const StopRequest stop;
   Ranges ranges = ranges_of(*playback, times.front(), times.back());

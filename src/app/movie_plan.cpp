@@ -87,9 +87,9 @@ void require_free_place(const fs::path& path, bool force) {
         fmt::format("{}: this file is there already; replace it with --force, or name another one with -o", path.string()));
 }
 
-double within(const char* option, const std::optional<double>& time, double usual, double begin, double end) {
-  if (time && !(*time >= begin && *time <= end))
-    throw UsageError(fmt::format("{} {}: the run goes from time {} to {}", option, *time, begin, end));
+double within(const char* option, const std::optional<double>& time, double usual, const DrawableTimes& drawable) {
+  if (time && !(*time >= drawable.begin && *time <= drawable.end))
+    throw UsageError(fmt::format("{} {}: {}", option, *time, drawable.words));
   return time.value_or(usual);
 }
 
@@ -136,10 +136,10 @@ PictureSize size_for(const MoviePlan& plan, const std::array<double, 4>& extent,
   return size;
 }
 
-std::vector<double> picture_times(const MovieOptions& options, const MoviePlan& plan, double begin, double end,
-                                  double last_sample) {
-  if (!plan.is_film()) return {within("--at", options.at, last_sample, begin, end)};
-  const double from = within("--from", options.from, begin, begin, end), to = within("--to", options.to, end, begin, end);
+std::vector<double> picture_times(const MovieOptions& options, const MoviePlan& plan, const DrawableTimes& drawable) {
+  if (!plan.is_film()) return {within("--at", options.at, drawable.last_sample, drawable)};
+  const double from = within("--from", options.from, drawable.begin, drawable);
+  const double to = within("--to", options.to, drawable.end, drawable);
   if (from > to) throw UsageError(fmt::format("--from {}: this is after the end of the film, {}", from, to));
   const double step = options.speed.value_or((to - from) / usual_seconds) / plan.fps;
   if (!(to > from) || !(step > 0.0)) return {from};

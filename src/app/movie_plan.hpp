@@ -7,9 +7,11 @@
 
 #include <array>
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
+#include <vector>
 
 namespace carom::cli {
 
@@ -39,9 +41,14 @@ inline constexpr std::array<std::pair<std::string_view, Colouring>, 8> colouring
 /// Returns the size in pixels for a box of this extent.
 [[nodiscard]] PictureSize size_for(const MoviePlan& plan, const std::array<double, 4>& extent, bool caption);
 
-/// Returns the times of the pictures: one, or those of all frames. Throws UsageError where they are not in the run, which goes
-/// from `begin` to `end`, or are too many.
-[[nodiscard]] std::vector<double> picture_times(const MovieOptions& options, const MoviePlan& plan, double begin, double end,
-                                                double last_sample);
+/// The times that can be drawn.
+struct DrawableTimes {
+  double begin = 0.0, end = 0.0, last_sample = 0.0;
+  std::string words;  ///< a sentence about them without its stop, for what asks for others
+};
+
+/// Returns the times of the pictures: one, or those of all frames. Throws UsageError where they cannot be drawn, or are too many.
+[[nodiscard]] std::vector<double> picture_times(const MovieOptions& options, const MoviePlan& plan,
+                                                const DrawableTimes& drawable);
 
 }  // namespace carom::cli

@@ -105,6 +105,18 @@ TEST_F(MovieCommand, SaysWhatNoEventLogHolds) {
   }
 }
 
+TEST_F(MovieCommand, SaysWhereSamplesEndBeforeTheRun) {
+  run_scene({"--set", "run.sample_every=0.75"});
+  refused({"movie", "gas", "-o", "a.png", "--at", "1.8"},
+          "--at 1.8: its samples go from time 0 to 1.5, and the run to 2; to draw its end, run the scene with --events");
+  run_scene({"--force", "--events", "--set", "run.sample_every=0.75"});
+  EXPECT_EQ(carom({"movie", "gas", "-o", "a.png", "--at", "1.8", "--size", "64"}).exit_code, 0);
+  fs::remove(file("a.png"));
+  run_scene({"--force", "--events", "--set", "run.sample_every=0.75", "--set", "thermostat.temperature=1.0", "--set",
+             "thermostat.rate=1.0"});
+  refused({"movie", "gas", "-o", "a.png", "--at", "1.8"}, "run the scene with a sample_every of which its time is a multiple");
+}
+
 TEST_F(MovieCommand, RefusesWhatIsNoFinishedRun) {
   refused({"movie", "nowhere", "-o", "a.png"}, "nowhere: there is no such directory");
   refused({"movie", "gas.toml", "-o", "a.png"}, "gas.toml: this is a file; name the run directory");
