@@ -95,7 +95,7 @@ ExitCode draw(const MovieOptions& options) {
   const std::vector<double> times = picture_times(options, plan, drawable_times(*run, *playback));
   const Look look = look_of(options, plan, *run, *playback);
   const StopRequest stop;
-  Ranges ranges = ranges_of(*playback, times.front(), times.back());
+  Ranges ranges = ranges_of(*playback, run->scene(), times.front(), times.back());
   ranges.clock = clock_format(times);
   const Painter painter(run->scene(), run->disks(), run->species_names(), look, ranges,
                         size_for(plan, ranges.extent, look.caption));

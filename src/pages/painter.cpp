@@ -4,6 +4,7 @@
 
 #include "pages/drawing.hpp"
 #include "pages/playback.hpp"
+#include "pages/wall_vibrations.hpp"
 
 #include <fmt/format.h>
 
@@ -41,7 +42,7 @@ void draw(cairo_surface_t* surface, const detail::Subject& subject, const Moment
 
 }  // namespace
 
-Ranges ranges_of(Playback& playback, double from, double to) {
+Ranges ranges_of(Playback& playback, const Scene& scene, double from, double to) {
   constexpr int most_moments = 32;
   const int moments = to > from ? most_moments : 0;
   Ranges ranges;
@@ -59,6 +60,11 @@ Ranges ranges_of(Playback& playback, double from, double to) {
     for (const std::uint64_t collisions : moment.collisions)
       ranges.most_collisions = std::max(ranges.most_collisions, static_cast<double>(collisions));
   }
+  if (to > from)
+    for (const WallVibration& wall : wall_vibrations(scene)) {
+      double& limit = ranges.extent[wall.side];
+      limit = wall.side % 2 == 0 ? std::min(limit, wall.low) : std::max(limit, wall.high);
+    }
   if (typical > 0.0) {
     ranges.typical_speed = typical;
     ranges.fastest = std::min(fastest, 2.5 * typical);  // of a gas in equilibrium, all but 2 in 1000

@@ -40,8 +40,8 @@ struct Ranges {
   double most_collisions = 1.0;    ///< largest number of collisions of any disk
   ClockFormat clock = {};
 };
-/// Looks at a few moments between two times.
-[[nodiscard]] Ranges ranges_of(Playback& playback, double from, double to);
+/// Looks at a few moments between two times, and at how far the walls of the scene vibrate.
+[[nodiscard]] Ranges ranges_of(Playback& playback, const Scene& scene, double from, double to);
 
 enum class PictureFormat { png, svg, pdf };
 

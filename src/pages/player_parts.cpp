@@ -5,6 +5,7 @@
 #include "io/json.hpp"
 #include "observe/equilibrium.hpp"
 #include "observe/mechanics.hpp"
+#include "pages/wall_vibrations.hpp"
 #include "scene/changes.hpp"
 #include "scene/fixed_shapes.hpp"
 
@@ -140,6 +141,8 @@ Json player_description(const Scene& scene, const std::string& title, const std:
   json["growth"] = effects.growth_rate();
   json["shapes"] = shapes_of(effects);
   if (!scene.changes.empty()) json["laterShapes"] = later_shapes(scene);
+  for (const WallVibration& wall : wall_vibrations(scene))
+    json["vibrations"].push_back({{"side", wall.side}, {"low", wall.low}, {"high", wall.high}});
   json["centreOfMassIsThermal"] =
       Json::array({centre_of_mass_is_thermal(box, effects, 0), centre_of_mass_is_thermal(box, effects, 1)});
   json["whyNoZ"] = why_no_Z(scene);

@@ -2,7 +2,9 @@
 
 #include "pages/painter.hpp"
 
+#include "pages/playback.hpp"
 #include "support/child_process.hpp"
+#include "support/recorded_run.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -268,6 +270,20 @@ print(root.get('width'), 7 in fills.values())
 TEST_F(PainterTest, PicturesBeginAsTheirFormatsDo) {
   EXPECT_EQ(painter().picture(moment_, PictureFormat::png).substr(0, 8), "\x89PNG\r\n\x1a\n");
   EXPECT_EQ(painter().picture(moment_, PictureFormat::pdf).substr(0, 5), "%PDF-");
+}
+
+TEST(Ranges, HoldAllOfTheWayOfAWallThatVibrates) {
+  // Samples, and the 33 moments that are looked at, come after whole periods, when the wall is in the middle.
+  const Scene scene = parse_scene(
+      "[box]\nx = [0.0, 10.0]\ny = [0.0, 10.0]\nboundary = \"walls\"\n[[disks]]\nradius = 0.2\nmass = 1.0\n"
+      "positions = [[3.0, 5.0]]\nvelocities = [[1.0, 0.0]]\n[collision]\nrule = \"specular\"\n[walls]\n"
+      "bottom = { vibration = { form = \"sine\", amplitude = 0.5, frequency = 16.0 } }\n[run]\ntime = 2.0\nsample_every = 0.5\n");
+  const TemporaryDirectory directory;
+  record(scene, directory.path() / "run");
+  Playback playback(RunReader(directory.path() / "run"));
+  const std::array<double, 4> found = ranges_of(playback, scene, 0.0, 2.0).extent;
+  const std::array<double, 4> expected = {0.0, 10.0, -0.5, 10.0};
+  for (std::size_t side = 0; side < 4; ++side) EXPECT_NEAR(found[side], expected[side], 1e-12) << side;
 }
 
 TEST(Layout, ALongerSideIsAsLongAsAsked) {

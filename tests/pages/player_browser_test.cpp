@@ -188,6 +188,16 @@ TEST(BrowserPlayer, ImagesOfAShearedBoxFillTheView) {
   EXPECT_EQ(data(visit, "holes"), "0");
 }
 
+TEST(BrowserPlayer, ShowsAllOfTheBoxWhileAWallVibrates) {
+  if (!has_browser()) GTEST_SKIP() << no_browser;
+  // The 65 moments that the player looks at are half a period apart, and the wall is in the middle of its way at each.
+  const Scene scene = disks_in("x = [0.0, 10.0]\ny = [-4.0, 4.0]\nboundary = \"walls\"",
+                               "[walls]\nbottom = { vibration = { form = \"sine\", amplitude = 0.5, frequency = 4.0 } }\n");
+  const Visit visit = played(scene, "document.documentElement.dataset.extent = extent.join();\n");
+  expect_clean(visit);
+  EXPECT_EQ(data(visit, "extent"), "0,10,-4.5,4");
+}
+
 TEST(BrowserPlayer, DrawsDisksFromSamplesAtTheirInstantsAndSaysSo) {
   if (!has_browser()) GTEST_SKIP() << no_browser;
   const Scene scene = parse_scene(watched_gas, "gas", {"thermostat.temperature=1.0", "thermostat.rate=1.0"});

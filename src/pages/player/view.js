@@ -5,7 +5,7 @@ const stages = [...document.querySelectorAll(".stage canvas")];  // one box, or 
 const canvas = stages[0];
 const view = { width: 1, height: 1, density: 1, scale: 1, x: 0, y: 0 };  // scale: pixels per length; x, y: the position in the middle
 
-/// The largest extent of the box during the run.
+/// The largest extent of the box during the run: at a few moments, and where walls that vibrate turn.
 const extent = (() => {
   const moment = emptyMoment();
   const found = [Infinity, -Infinity, Infinity, -Infinity];
@@ -15,6 +15,8 @@ const extent = (() => {
     for (let side = 0; side < 4; ++side)
       found[side] = side % 2 ? Math.max(found[side], moment.walls[side]) : Math.min(found[side], moment.walls[side]);
   }
+  for (const { side, low, high } of description.vibrations ?? [])
+    found[side] = side % 2 ? Math.max(found[side], high) : Math.min(found[side], low);
   return found;
 })();
 

@@ -1,0 +1,39 @@
+#include "pages/wall_vibrations.hpp"
+
+#include "core/oscillating_fall_time.hpp"
+#include "scene/changes.hpp"
+
+#include <array>
+#include <optional>
+
+namespace carom {
+
+namespace {
+
+void add(const Box& box, const Effects& effects, std::vector<WallVibration>& vibrations) {
+  const std::array<double, 4> edges = {box.lower.x(), box.upper.x(), box.lower.y(), box.upper.y()};
+  for (std::size_t side = 0; side < 4; ++side) {
+    const std::optional<Oscillation>& asked = effects.walls[side].oscillation;
+    if (!asked || !asked->moves()) continue;
+    const double amplitude = asked->amplitude;
+    const OscillatingFloor<double> floor{amplitude, asked->frequency, asked->phase, asked->form == WaveForm::sawtooth};
+    // Where the floor rises, the side goes inward.
+    const double middle = edges[side] + (side % 2 == 0 ? -1.0 : 1.0) * floor.height(0.0);
+    vibrations.push_back({side, middle - amplitude, middle + amplitude});
+  }
+}
+
+}  // namespace
+
+std::vector<WallVibration> wall_vibrations(const Scene& scene) {
+  std::vector<WallVibration> vibrations;
+  Effects effects = scene.effects;
+  add(scene.box, effects, vibrations);
+  for (const Change& change : scene.changes) {
+    effects = effects_after(effects, change);
+    add(scene.box, effects, vibrations);
+  }
+  return vibrations;
+}
+
+}  // namespace carom
