@@ -22,7 +22,7 @@ constexpr double tolerance = 0.02;   // pixels: how far from a circle what Cairo
 /// What the cells of the disks say.
 struct LocalOrder {
   std::vector<std::complex<double>> psi6;
-  std::vector<std::size_t> neighbours;  ///< 0 where a wall cuts the cell off
+  std::vector<std::size_t> neighbours;  ///< those behind a side that has a length; 0 where a wall cuts the cell off
 };
 
 LocalOrder order_of(const Subject& subject, const Moment& moment) {
@@ -32,9 +32,12 @@ LocalOrder order_of(const Subject& subject, const Moment& moment) {
   box.lower = {moment.sides[0], moment.sides[2]};
   box.upper = {moment.sides[1], moment.sides[3]};
   const VoronoiCells cells(box, moment.positions, moment.shear_displacement);
+  const double spacing = std::sqrt(box.lengths().prod() / std::max(1.0, static_cast<double>(cells.count())));
+  const auto is_seen = [&](const VoronoiSide& side) { return side.length >= 1e-9 * spacing; };
   for (std::size_t i = 0; i < cells.count(); ++i) {
-    found.psi6.push_back(sixfold_order(cells.sides(i)));
-    found.neighbours.push_back(cells.at_wall(i) ? 0 : cells.sides(i).size());
+    const auto sides = cells.sides(i);
+    found.psi6.push_back(sixfold_order(sides));
+    found.neighbours.push_back(cells.at_wall(i) ? 0 : static_cast<std::size_t>(std::ranges::count_if(sides, is_seen)));
   }
   return found;
 }

@@ -194,6 +194,15 @@ TEST_F(PeriodicPainterTest, ColoursOfNeighboursShowDefects) {
   EXPECT_EQ(at(place(2, 2).x(), place(2, 2).y()), 0xfbfcfdU);
 }
 
+TEST_F(PeriodicPainterTest, DisksOfASquareLatticeHaveFourNeighbours) {
+  for (int row = 0; row < 5; ++row)
+    for (int column = 0; column < 5; ++column) add({1.0 + 2.0 * column, 1.0 + 2.0 * row}, 0.7);
+  look_.colouring = Colouring::neighbours;
+  draw();
+  for (int row = 0; row < 5; ++row)
+    for (int column = 0; column < 5; ++column) EXPECT_EQ(at(1.0 + 2.0 * column, 1.0 + 2.0 * row), 0xe69f00U) << row << column;
+}
+
 TEST_F(PeriodicPainterTest, ColoursOfSixfoldOrderAreTheEndsOfTheirScales) {
   // With the height of an equilateral lattice psi6 is 1 and its axis along x.
   scene_.box.upper.y() = ranges_.extent[3] = moment_.sides[3] = 6.0 * std::sqrt(3.0);

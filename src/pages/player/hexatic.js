@@ -1,6 +1,7 @@
 // Voronoi cells of the disks, and what they say of the order round each: as `carom movie` and the observable voronoi have them
 // (docs/observables.md). Psi = mean of exp(6 i theta) over the neighbours, weighted by the lengths of the sides; 1 in a perfect
-// crystal. Where centres form exact rectangles, both diagonals have length 0 and count as no sides.
+// crystal. Where centres form exact rectangles, both diagonals have length 0 and count as no sides, as in films; the observable
+// counts one of them.
 "use strict";
 
 /// The axes of psi from -30 to 30 degrees as a number from 0 to 1, and the kind of a disk in neighbourColours().
