@@ -95,11 +95,13 @@ std::vector<Kind> kinds_of(const Subject& subject) {
 
 void draw_kinds(cairo_t* context, const Subject& subject, double from, double right, double baseline) {
   const double letters = subject.layout.letters, gap = 0.4 * letters, spot = 0.35 * letters;
-  double x = right;
   const std::vector<Kind> kinds = kinds_of(subject);
+  double needed = -2.0 * gap;  // between two kinds
+  for (const Kind& kind : kinds) needed += width_of(context, kind.name) + 2.0 * spot + 3.0 * gap;
+  if (right - needed < from) return;  // no room
+  double x = right;
   for (std::size_t k = kinds.size(); k-- > 0;) {
     x -= width_of(context, kinds[k].name);
-    if (x - gap - 2.0 * spot < from) return;  // no room
     set_colour(context, theme(subject.look.dark).muted);
     write(context, kinds[k].name, x, baseline);
     x -= gap + spot;

@@ -258,6 +258,22 @@ TEST_F(PainterTest, TheCaptionIsBelowTheBox) {
   EXPECT_GE(layout_.caption_top, layout_.y(0.0));
 }
 
+TEST_F(PainterTest, ALegendIsWholeOrLeftOut) {
+  look_.caption = true;
+  look_.colouring = Colouring::neighbours;
+  // Inks the caption of a picture of 220 x 220, right of the clock.
+  const auto ink = [&] {
+    draw();
+    int inked = 0;
+    for (int y = static_cast<int>(layout_.caption_top); y < 220; ++y)
+      for (int x = 90; x < 220; ++x) inked += pixel(x, y) != 0xffffffU ? 1 : 0;
+    return inked;
+  };
+  EXPECT_EQ(ink(), 0) << "five kinds of neighbours are wider than the picture";
+  look_.colouring = Colouring::species;
+  EXPECT_GT(ink(), 20) << "two species with short names are not";
+}
+
 TEST_F(PainterTest, AnSvgIsXmlAndHasEveryDiskOnce) {
   for (int k = 0; k < 7; ++k) add({1.0 + k, 5.0}, 0.1);
   const TemporaryDirectory directory;
