@@ -115,8 +115,10 @@ FieldValues fields_of(const CellSums& sums, double steps, double step, double ar
   const double carried_along = heat + flow + sums.internal / (steps * area);
   const Eigen::Vector2d heat_flux = energy - carried_along * u - stress * u;
   found[1] = u.x(), found[2] = u.y();
-  found[3] = heat / found[0];
-  found[4] = stress(0, 0), found[5] = stress(0, 1), found[6] = stress(1, 0), found[7] = stress(1, 1);
+  // A difference of squares that is 0 may be less to rounding.
+  found[3] = std::max(heat / found[0], 0.0);
+  found[4] = std::max(kinetic(0, 0), 0.0) + carried(0, 0), found[5] = stress(0, 1);
+  found[6] = stress(1, 0), found[7] = std::max(kinetic(1, 1), 0.0) + carried(1, 1);
   found[8] = heat_flux.x(), found[9] = heat_flux.y();
   found[10] = sums.lost / (steps * step * area);
   return found;

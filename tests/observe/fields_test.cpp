@@ -72,6 +72,16 @@ TEST(Fields, OfOneCellAreThoseOfTheBox) {
   EXPECT_NEAR(field(o, "energy_lost")[0], 0.0, 1e-13);
 }
 
+TEST(Fields, NoRoundingMakesTheTemperatureOfOneDiskNegative) {
+  const Observed o = observe(
+      parse_scene("[box]\nx = [0.0, 6.0]\ny = [0.0, 6.0]\nboundary = \"periodic\"\n[[disks]]\nradius = 0.2\nmass = 1.1\n"
+                  "positions = [[1.0, 2.0]]\nvelocities = [[0.31, 0.17]]\n[collision]\nrule = \"specular\"\n[run]\ntime = 200.0\n"
+                  "[observe]\nfields = { every = 0.1, cells = [4, 4] }\n"),
+      0.1);
+  for (const char* const name : {"temperature", "stress_xx", "stress_yy"})
+    for (const double value : field(o, name)) EXPECT_FALSE(value < 0.0) << name;
+}
+
 TEST(Fields, OfManyCellsSumUpToThoseOfTheBox) {
   const auto in_cells = [](const std::string& cells) {
     return observe(parse_scene(small_fluid("fields = { every = 0.05, cells = " + cells + " }")), 5.0);
