@@ -107,6 +107,8 @@ const char* style_name(Style style) {
       return "dashed";
     case Style::points:
       return "points";
+    case Style::levels:
+      return "levels";
     case Style::line_and_points:
       return "line_and_points";
     case Style::band:

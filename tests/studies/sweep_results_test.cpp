@@ -232,6 +232,16 @@ TEST_F(SweepOfDiffusion, IsDrawnBesideTheory) {
   EXPECT_EQ(drawn, 1U) << "Z is the same in all runs here, and is not drawn";
 }
 
+TEST_F(SweepOfDiffusion, TheoryOfOnePointIsAShortLineBesideTheData) {
+  for (const std::size_t run : {2U, 3U}) fs::remove_all(out() / sweep_.directory_of(run));
+  const Page page = sweep_page(sweep_, collect(sweep_, out()));
+  const Plot& plot = std::get<Plot>(page.sections.at(0).blocks.at(0));
+  ASSERT_EQ(plot.series.size(), 2U);
+  EXPECT_THAT(plot.series[1].x, ElementsAre(0.1));
+  EXPECT_EQ(plot.series[1].style, Style::levels);
+  EXPECT_THAT(plot.caption, HasSubstr("Short lines are theory."));
+}
+
 TEST_F(SweepOfDiffusion, ItsTableIsDrawnBesideTheTheoryOfEachPoint) {
   const std::vector<Series> series = plot_of_tables().series;
   ASSERT_EQ(series.size(), 4U);

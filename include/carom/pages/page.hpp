@@ -22,6 +22,7 @@ enum class Style {
   line,
   dashed,  ///< a dashed line
   points,
+  levels,  ///< a short horizontal line at each point
   line_and_points,
   band,  ///< a line in a shaded region from y_low to y_high
 };

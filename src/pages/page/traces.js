@@ -80,7 +80,12 @@ function errorBars(series, colour) {
   };
 }
 
-const modes = { line: "lines", dashed: "lines", points: "markers", line_and_points: "lines+markers", band: "lines" };
+const modes = { line: "lines", dashed: "lines", points: "markers", levels: "markers", line_and_points: "lines+markers", band: "lines" };
+
+function seriesMarker(series, colour, theme) {
+  if (series.style === "levels") return { symbol: "line-ew", size: 18, line: { color: colour, width: 2.5 } };
+  return { ...symbols[series.group % symbols.length], color: colour, line: { color: theme.paper, width: 0.8 } };
+}
 
 function seriesTraces(series, k, plot, theme) {
   const colour = theme.series[series.group % theme.series.length];
@@ -100,7 +105,7 @@ function seriesTraces(series, k, plot, theme) {
     y: keep(series.y),
     mode: modes[series.style],
     line: { color: colour, width: 2, dash: series.style === "dashed" ? "6px,4px" : "solid" },
-    marker: { ...symbols[series.group % symbols.length], color: colour, line: { color: theme.paper, width: 0.8 } },
+    marker: seriesMarker(series, colour, theme),
     error_y: series.y_low && series.style !== "band" && !isEmpty ? errorBars(series, colour) : undefined,
     hoverinfo: "text",
     hoverlabel: { bordercolor: colour },

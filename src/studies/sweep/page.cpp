@@ -98,7 +98,7 @@ Series theory_of(const PlottedCurve& curve, std::size_t place, bool alone) {
     series.y.push_back(point.theory->value);
     series.labels.push_back(source);
   }
-  if (series.x.size() == 1) series.style = Style::points;
+  if (series.x.size() == 1) series.style = Style::levels;
   if (!alone && !curve.name.empty()) series.name += ", " + curve.name;
   return series;
 }
@@ -141,6 +141,8 @@ std::vector<Plot> plots_of(const Sweep& sweep, const SweepResults& results, cons
     for (std::size_t place = 0; place < curves.size(); ++place)
       if (Series line = theory_of(curves[place], place, curves.size() == 1); !line.x.empty())
         plot.series.push_back(std::move(line));
+    if (std::ranges::find(plot.series, Style::levels, &Series::style) != plot.series.end())
+      plot.caption += fmt::format("{}Short lines are theory.", plot.caption.empty() ? "" : " ");
     plots.push_back(std::move(plot));
   }
   return plots;
