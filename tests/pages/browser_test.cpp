@@ -125,6 +125,31 @@ TEST(BrowserPage, PaperAndSavedPicturesAreLightWhateverTheScreen) {
   EXPECT_THAT(figure(dom, "error-growth"), Not(HasSubstr("rgb(63, 159, 224)")));
 }
 
+TEST(BrowserPage, LongNamesStayInTheirColumnsAndPlots) {
+  if (!has_browser()) GTEST_SKIP() << no_browser;
+  const std::string name = "observables.intermediate_scattering.relaxation_time_of_species@2.5,12";
+  Page page;
+  for (const char* const id : {"a", "b", "c", "d"})
+    page.sections.push_back({name,
+                             {Plot{.id = id,
+                                   .title = name,
+                                   .x = {.title = name},
+                                   .y = {.title = name + " (length^2 / time in scene units)"},
+                                   .series = {{.name = name, .x = {1.0, 2.0}, .y = {2.0, 3.0}}}}}});
+  const std::string dom = document(html_page(page), Screen::light,
+                                   "const box = (element) => element.getBoundingClientRect();"
+                                   "const isIn = (one, other) => one.left >= other.left && one.right <= other.right &&"
+                                   "  one.top >= other.top && one.bottom <= other.bottom;"
+                                   "const titles = [...document.querySelectorAll('.ytitle')];"
+                                   "const entries = [...document.querySelectorAll('nav li')];"
+                                   "document.body.dataset.titles = titles.filter((title) =>"
+                                   "  isIn(box(title), box(title.closest('.canvas')))).length;"
+                                   "document.body.dataset.entries = entries.filter((entry) =>"
+                                   "  box(entry.querySelector('a')).right <= box(entry).right).length;");
+  EXPECT_THAT(dom, HasSubstr("data-titles=\"4\""));
+  EXPECT_THAT(dom, HasSubstr("data-entries=\"4\""));
+}
+
 TEST(BrowserPage, WhatGoesWrongIsReportedAndShownWhereThePlotWouldBe) {
   if (!has_browser()) GTEST_SKIP() << no_browser;
   std::string html = html_page(sample_page());

@@ -19,10 +19,17 @@ function markLabel(mark, plot, theme) {
   return { ...(mark.axis === "x" ? upright : level), ...style, text: plotText(mark.label) };
 }
 
-/// Breaks the long title of a vertical axis into two lines, with the unit in the second, so that nothing is cut off.
+/// Breaks the long title of a vertical axis into lines, at the ends of words and at the dots of names but not in a unit, so that
+/// nothing is cut off.
 function axisTitle(axis, isUpright) {
-  const text = plotText(axis.title);
-  return isUpright && axis.title.length > 36 ? text.replace(/ (?=\([^()]*\)$)/, "<br>") : text;
+  const longest = 36;  // characters that the shortest plot has room for
+  if (!isUpright || axis.title.length <= longest) return plotText(axis.title);
+  const lines = [""];
+  for (const piece of axis.title.split(/(?<=[. ])(?![^()]*\))/)) {
+    if (lines.at(-1) !== "" && (lines.at(-1) + piece).trimEnd().length > longest) lines.push("");
+    lines[lines.length - 1] += piece;
+  }
+  return lines.map((line) => plotText(line.trimEnd())).join("<br>");
 }
 
 function axisLayout(axis, theme, isEmpty, isUpright = false) {
