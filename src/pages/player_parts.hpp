@@ -25,7 +25,7 @@ void put_events(const Scene& scene, const Disks& disks, const State& start, cons
                 VelocityDigits digits, NumberColumns& columns, nlohmann::ordered_json& json);
 
 /// Adds the samples as small numbers, and says in `json` what they count. Every sample where they take at most `most_bytes`, else
-/// every second, third, ... one.
+/// every second, third, ... one, and the last. Requires one.
 void put_samples(const Recording& run, std::uint64_t most_bytes, NumberColumns& columns, nlohmann::ordered_json& json);
 
 }  // namespace carom::detail

@@ -20,9 +20,11 @@ constexpr std::uint64_t bytes_per_disk = 8;
 void put_samples(const Recording& run, std::uint64_t most_bytes, NumberColumns& columns, nlohmann::ordered_json& json) {
   const std::uint64_t per_sample = std::max<std::uint64_t>(1, bytes_per_disk * run.disks.count());
   const std::uint64_t most = std::max<std::uint64_t>(2, most_bytes / per_sample);
-  const std::uint64_t step = std::max<std::uint64_t>(1, (run.samples + most - 1) / most);
+  const std::uint64_t last = run.samples - 1;
+  const std::uint64_t step = std::max<std::uint64_t>(1, (last + most - 2) / (most - 1));
   std::vector<State> states;
-  for (std::uint64_t k = 0; k < run.samples; k += step) states.push_back(run.sample(k));
+  for (std::uint64_t k = 0; k < last; k += step) states.push_back(run.sample(k));
+  states.push_back(run.sample(last));
 
   // Walls that move take the disks beyond the first box.
   Eigen::Vector2d lower = run.scene.box.lower, upper = run.scene.box.upper;

@@ -147,6 +147,12 @@ TEST_F(PlayerDataTest, MoreEventsOrSamplesThanAPageCanHoldAreThinnedOut) {
   EXPECT_EQ(description_.at("samples").at("every"), 3);
 }
 
+TEST_F(PlayerDataTest, SamplesThatAreThinnedOutKeepTheLast) {
+  const PlayerData data = packed({"run.time=5.5"}, {.events = 10, .sample_bytes = 5 * 8 * 30});
+  EXPECT_THAT(column<double>(data, "sampleTime", "Float64Array"), ::testing::ElementsAre(0.0, 1.5, 3.0, 4.5, 5.5));
+  EXPECT_EQ(description_.at("duration"), 5.5);
+}
+
 TEST_F(PlayerDataTest, GrowingDisksAreRescaledByEventsOfTheirOwn) {
   const PlayerData data = packed({"growth.rate=0.02"});
   ASSERT_TRUE(data.exact);
