@@ -260,7 +260,7 @@ void add_validate(CLI::App& program, Action& action, const Invocation& invocatio
   const auto options = std::make_shared<ValidateCommandOptions>();
   command->add_flag("--quick", options->quick, "One to two minutes on two cores; the default");
   command->add_flag("--full", options->full,
-                    "Twenty times as many collisions, and seven more trials: about two hours on two cores");
+                    "Twenty times as many collisions, and seven more trials: one to two hours on two cores");
   command->add_option("--seed", options->seed, "Seed of all random numbers (default: 1)")->type_name("N");
   command->add_option("--only", options->only, "Run only this trial, or this group of trials; may be repeated")
       ->type_name("TRIAL")
