@@ -423,7 +423,7 @@ def _scene_at(base: Scene, keys: Sequence[str], full: Sequence[str], point: Mapp
         raise SceneError(f"the scene of the point {_point_text(point)} is refused: {error.sentence}") from None
 
 
-def _different(points: Sequence[Mapping[str, Any]], scenes: Sequence[Scene]) -> tuple[list[Mapping[str, Any]], list[Scene]]:
+def _different(points: Sequence[dict[str, Any]], scenes: Sequence[Scene]) -> tuple[list[dict[str, Any]], list[Scene]]:
     """Returns the points whose scenes are all different, with them: of several that have one scene, such as those of 1 and 1.0, the
     first. A warning names the others."""
     first: dict[bytes, int] = {}

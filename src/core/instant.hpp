@@ -47,13 +47,13 @@ struct Instant {
   return std::abs(a.high - b.high) <= 2.0 * std::numeric_limits<double>::epsilon() * std::abs(b.high);
 }
 
+/// Later than everything that can happen.
+inline constexpr Instant forever{std::numeric_limits<double>::max(), 0.0};
+
 /// Returns the time at which a sample is taken, where a change is to come at another time: the earlier of the two where they are
 /// equal to rounding, as 0.3 and 3 * 0.1 are. The change comes after the sample.
 [[nodiscard]] inline Instant before_change(const Instant& change, const Instant& sample) {
-  return change < sample && equal_to_rounding(change, sample) ? change : sample;
+  return change < sample && sample < forever && equal_to_rounding(change, sample) ? change : sample;
 }
-
-/// Later than everything that can happen.
-inline constexpr Instant forever{std::numeric_limits<double>::max(), 0.0};
 
 }  // namespace carom

@@ -63,7 +63,6 @@ void check_whole_numbers(const Run& run) {
       throw Refusal(path,
                     fmt::format("{} is {}; it must be a whole number from 0 to {}, the largest of TOML", path, value, most));
   };
-  require_written("run.seed", run.seed);
   require_written("run.collisions", run.collisions.value_or(0));
   require_written("run.sample_every.collisions", run.sample_every_collisions.value_or(0));
 }

@@ -90,13 +90,14 @@ TEST(Resolved, WhatAFileCannotSayOtherwiseSurvives) {
   const Scene again = parse_scene(resolved_toml(scene));
   EXPECT_FALSE(again.output.trajectory) << "there are no samples";
   EXPECT_EQ(again.species[0].radii, scene.species[0].radii) << "the radius of all is that of none";
-  scene.run.seed = std::uint64_t{1} << 63;
+  scene.run.collisions = std::uint64_t{1} << 63;
   try {
     check(scene);
     FAIL() << "TOML has no such number";
   } catch (const SceneError& error) {
-    EXPECT_EQ(error.sentence(),
-              "run.seed is 9223372036854775808; it must be a whole number from 0 to 9223372036854775807, the largest of TOML");
+    EXPECT_EQ(
+        error.sentence(),
+        "run.collisions is 9223372036854775808; it must be a whole number from 0 to 9223372036854775807, the largest of TOML");
   }
 }
 
