@@ -250,6 +250,13 @@ TEST(SceneChanges, SamplesOfThatTimeToRoundingComeBefore) {
   }
 }
 
+TEST(SceneChanges, AnObservationWithoutStepsIsNeverDue) {
+  Simulation simulation = make_simulation(parse_scene(gas(some_changes)));
+  Observation observation(simulation);
+  observation.sample(simulation);
+  EXPECT_EQ(observation.next_sample(), std::numeric_limits<double>::infinity());
+}
+
 TEST(SceneChanges, AStretchThatEndsWithThemLeavesThemToCome) {
   const Scene scene = parse_scene(gas("[[changes]]\ntime = 0.3\nscale_velocities = 2.0\n"));
   Simulation simulation = make_simulation(scene);
