@@ -1,7 +1,7 @@
 #include "pages/wall_vibrations.hpp"
 
-#include "core/oscillating_fall_time.hpp"
 #include "scene/changes.hpp"
+#include "scene/walls.hpp"
 
 #include <array>
 #include <optional>
@@ -15,11 +15,9 @@ void add(const Box& box, const Effects& effects, std::vector<WallVibration>& vib
   for (std::size_t side = 0; side < 4; ++side) {
     const std::optional<Oscillation>& asked = effects.walls[side].oscillation;
     if (!asked || !asked->moves()) continue;
-    const double amplitude = asked->amplitude;
-    const OscillatingFloor<double> floor{amplitude, asked->frequency, asked->phase, asked->form == WaveForm::sawtooth};
-    // Where the floor rises, the side goes inward.
-    const double middle = edges[side] + (side % 2 == 0 ? -1.0 : 1.0) * floor.height(0.0);
-    vibrations.push_back({side, middle - amplitude, middle + amplitude});
+    const double inward = inward_reach(*asked), outward = 2.0 * asked->amplitude - inward;
+    const bool is_lower = side % 2 == 0;
+    vibrations.push_back({side, edges[side] - (is_lower ? outward : inward), edges[side] + (is_lower ? inward : outward)});
   }
 }
 
