@@ -203,8 +203,10 @@ Effects effects_after(const Effects& effects, const Change& change) {
 
 Effects effects_at(const Scene& scene, double time) {
   Effects effects = scene.effects;
-  for (const Change& change : scene.changes)
-    if (change.time < time && !equal_to_rounding({change.time, 0.0}, {time, 0.0})) effects = effects_after(effects, change);
+  for (const Change& change : scene.changes) {
+    const Instant made{change.time, 0.0};
+    if (made < before_change(made, {time, 0.0})) effects = effects_after(effects, change);
+  }
   return effects;
 }
 

@@ -97,7 +97,7 @@ class Log {
 std::size_t changes_before(const Scene& scene, const Instant& sample) {
   return static_cast<std::size_t>(std::ranges::count_if(scene.changes, [&](const Change& change) {
     const Instant time{change.time, 0.0};
-    return time < sample && !equal_to_rounding(time, sample);
+    return time < before_change(time, sample);
   }));
 }
 
