@@ -55,28 +55,24 @@ class Prefetcher {
     prefetch(&of.plans[j]), disk(of, j);
   }
 
-  /// Asks for what the events of the spans after `span` of the calendar need, in three stages: plans; lines and lists; what the
-  /// lists name. `centre(i, time)` is that of the neighbourhood that disk i would get at a time.
+  /// Asks for what the events of the spans after `span` of the calendar, whose turn has come, need, in three stages: plans; lines
+  /// and lists; what the lists name. `centre(i, time)` is that of the neighbourhood that disk i would get at a time.
   template <class Line, class Centre>
   void calendar(const PrefetchedData<Line>& of, std::int64_t span, Centre&& centre) const {
     const CalendarQueue<Plans>& calendar = of.queue.calendar();
-    calendar.prefetch_span(span + 7);
-    for (const std::int32_t i : calendar.ids_of(span + 5)) prefetch_early(&of.plans[i]);
-    for (const std::int32_t i : calendar.ids_of(span + 4)) {
-      disk_early(of, i);
-      if (of.plans[i].pair_time < of.plans[i].edge_time) {
-        prefetch_early(&of.plans[of.plans[i].partner]);
-        disk_early(of, of.plans[i].partner);
-      }
-    }
+    calendar.prefetch_span(span + 4);
+    for (const std::int32_t i : calendar.ids_of(span + 3)) prefetch_early(&of.plans[i]);
     for (const std::int32_t i : calendar.ids_of(span + 2)) {
-      if (calendar.span_of(of.plans.time(i)) != span + 2) continue;
-      if (of.plans[i].pair_time < of.plans[i].edge_time) {
-        neighbours_early(of, i), neighbours_early(of, of.plans[i].partner);
-      } else {
-        prefetch_early(&of.ids[static_cast<std::size_t>(i)]);  // decides ties, which times in steps often are
-        of.lists.prefetch_cells(i, centre(i, of.plans[i].edge_time));
-      }
+      const std::int32_t j = partner_or_itself(i, of.plans[i].other());
+      disk_early(of, i);
+      prefetch_early(&of.plans[j]), disk_early(of, j);
+    }
+    for (const FutureEvent& event : calendar.ahead())
+      neighbours_early(of, event.disk), neighbours_early(of, partner_or_itself(event.disk, event.other));
+    for (const FutureEvent& event : calendar.ahead()) {
+      if (event.other >= 0) continue;
+      prefetch_early(&of.ids[static_cast<std::size_t>(event.disk)]);  // decides ties, which times in steps often are
+      of.lists.prefetch_cells(event.disk, centre(event.disk, event.time));
     }
   }
 
@@ -88,6 +84,12 @@ class Prefetcher {
     return 1L << 20;
   }
 
+  /// The partner in a collision, or the disk itself where it has none: fetched twice then, in place of a branch that would be
+  /// guessed wrong.
+  static std::int32_t partner_or_itself(std::int32_t i, std::int32_t other) {
+    const std::int32_t none = other >> 31;  // all bits or none
+    return (other & ~none) | (i & none);
+  }
   template <class Line>
   static void disk(const PrefetchedData<Line>& of, std::int32_t i) {
     prefetch(&of.line(i)), of.lists.prefetch_list(i);

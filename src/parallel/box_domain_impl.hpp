@@ -182,7 +182,7 @@ void BoxDomain<Impact, Layout, World>::record(bool collisions, bool events, std:
 template <class Impact, class Layout, class World>
 void BoxDomain<Impact, Layout, World>::prefetch_span(std::int64_t span) const {
   if (!prefetcher_.looks_ahead()) return;
-  for (const std::int32_t i : queue_.calendar().ids_of(span + 3)) {
+  for (const std::int32_t i : queue_.calendar().ids_of(span + 2)) {
     prefetch_early(&mark(i));
     if (const std::int32_t partner = plans_[i].partner; partner >= 0) prefetch_early(&mark(partner));
   }

@@ -3,15 +3,19 @@
 // falls into it (Paul, J. Comput. Phys. 221, 615 (2007)).
 //
 // Every disk has one event; its owner keeps which (Events::time, Events::other). The queue only keeps ids, in the order in which
-// they came: nothing is ever removed from a span, and an id counts if its event still falls there when the span's turn comes.
-// Only the span at hand is sorted. Any number of ids finds room in a span, far events wait aside, and events at infinity are not
-// kept at all.
+// they came: nothing is ever removed from a span, and an id counts if its event still falls there when the span's turn is next.
+// Then its events are gathered, and sorted when the turn has come. Any number of ids finds room in a span, far events wait aside,
+// and events at infinity are not kept at all.
+//
+// A span has a dozen or two of events, and what is done once for each span, gathering, sorting and fetching ahead, has loops as
+// long as that without a branch on times: where spans are short, the processor guesses wrong several times in each.
 //
 // Ties: events at the same time are ordered by Events::precedes(a, b).
 
 #include "core/large_memory.hpp"
 #include "core/prefetch.hpp"
 #include "queue/future_event.hpp"
+#include "queue/later_counts.hpp"
 #include "queue/queue_pacing.hpp"
 
 #include <algorithm>
@@ -53,6 +57,7 @@ class CalendarQueue {
     pushed_ = 0;
     free_ = none;
     at_hand_.clear();
+    ahead_.clear();
     heaped_ = false;
     later_ = std::vector<Entry>();  // the first span was a guess, and may have left many for later
     far_ = far;
@@ -93,11 +98,16 @@ class CalendarQueue {
     at_hand_.pop_back();
   }
 
-  /// Returns ids that were put into span k of the ring, for prefetching: not all of them, and some no longer count.
+  /// Returns ids that were put into span k of the ring, for prefetching: not all of them, and some no longer count. Requires that
+  /// k comes after the span whose turn is next.
   [[nodiscard]] std::span<const std::int32_t> ids_of(std::int64_t k) const {
     return {span(k & mask_).ids, counts_[static_cast<std::size_t>(k & mask_)]};
   }
-  void prefetch_span(std::int64_t k) const { prefetch_early(&span(k & mask_)); }
+  /// Returns the events of the span whose turn is next, for prefetching: some may no longer count, and others come.
+  [[nodiscard]] std::span<const Entry> ahead() const { return ahead_; }
+  void prefetch_span(std::int64_t k) const {
+    for (std::size_t n = 0; n < room; n += 16) prefetch_early(&span(k & mask_).ids[n]);
+  }
 
   /// Returns the span into which a time falls.
   [[nodiscard]] std::int64_t span_of(double time) const {
@@ -110,7 +120,7 @@ class CalendarQueue {
 
   [[nodiscard]] std::size_t bytes() const {
     return spans_.capacity() * (sizeof(Span) + sizeof(std::int32_t) + 1) + later_.capacity() * sizeof(Entry) +
-           at_hand_.capacity() * sizeof(Entry);
+           (at_hand_.capacity() + ahead_.capacity()) * sizeof(Entry);
   }
 
   /// Whether next() will come across the event of a disk. O(disks): for checks.
@@ -119,6 +129,7 @@ class CalendarQueue {
     const auto same = [&](const Entry& entry) { return entry == event; };
     const std::int64_t k = span_of(event.time);
     if (k <= current_) return std::any_of(at_hand_.begin(), at_hand_.end(), same);
+    if (std::any_of(ahead_.begin(), ahead_.end(), same)) return true;
     if (k - current_ <= mask_) {
       for (std::size_t n = 0; n < waiting_; ++n)
         if (disks_[n] == disk && places_[n] == (k & mask_)) return true;
@@ -134,17 +145,17 @@ class CalendarQueue {
   /// Archives the whole state, for core/archive.hpp.
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(spans_, counts_, more_, mask_, per_time_, end_, current_, sort_out_at_, in_ring_, pushed_, free_, at_hand_, heaped_,
-            later_, far_, waiting_, fetched_, places_, disks_);
+    archive(spans_, counts_, more_, mask_, per_time_, end_, current_, sort_out_at_, in_ring_, pushed_, free_, at_hand_, ahead_,
+            heaped_, later_, far_, waiting_, fetched_, places_, disks_);
   }
 
  private:
   static constexpr std::int32_t none = -1;
-  static constexpr int room = 16;
-  static constexpr std::size_t waiting_room = 32;
-  static constexpr std::size_t few = 48;  ///< as many are kept sorted; more as a heap
+  static constexpr int room = 48;
+  static constexpr std::size_t waiting_room = 96;
+  static constexpr std::size_t few = most_counted;  ///< as many are kept sorted; more as a heap
 
-  /// One cache line of ids.
+  /// Three cache lines of ids.
   struct alignas(64) Span {
     std::int32_t ids[room];
   };
@@ -219,14 +230,16 @@ class CalendarQueue {
   /// Puts the next span that holds anything at hand. Returns false where nothing is left.
   bool turn(const Events& events) {
     append_fetched();
-    if (in_ring_ == 0) {
+    if (in_ring_ == 0 && ahead_.empty()) {
       if (!jump(events)) return false;
     } else if (current_ >= sort_out_at_) {
       sort_out_later(events);
     }
     do ++current_;
-    while (count(current_ & mask_) == 0 && current_ < sort_out_at_ && waiting_ == 0);
-    collect(events, current_ & mask_);
+    while (ahead_.empty() && count(current_ & mask_) == 0 && current_ < sort_out_at_ && waiting_ == 0);
+    gather(events, current_);  // what has come since
+    put_at_hand(events);
+    gather(events, current_ + 1);
     return true;
   }
 
@@ -259,28 +272,55 @@ class CalendarQueue {
     later_.resize(kept);
   }
 
-  void collect(const Events& events, std::int64_t first) {
-    take(events, first);
-    for (std::int32_t place = std::exchange(more(first), none); place != none;) {
-      take(events, place);
+  /// Gathers the events of span k ahead of its turn.
+  void gather(const Events& events, std::int64_t k) {
+    gather_from(events, k, k & mask_);
+    for (std::int32_t place = std::exchange(more(k & mask_), none); place != none;) {
+      gather_from(events, k, place);
       free_ = std::exchange(place, std::exchange(more(place), free_));
-    }
-    if (at_hand_.size() <= few) {
-      heaped_ = false;
-      for (std::size_t i = 1; i < at_hand_.size(); ++i) sink(events, i);
-    } else {
-      heaped_ = true;
-      std::make_heap(at_hand_.begin(), at_hand_.end(), Later{events});
     }
   }
 
-  void take(const Events& events, std::int64_t place) {
-    const int ids = std::exchange(count(place), std::uint8_t{0});
-    in_ring_ -= static_cast<std::size_t>(ids);
-    for (int n = 0; n < ids; ++n) {
+  void gather_from(const Events& events, std::int64_t k, std::int64_t place) {
+    const auto ids = static_cast<std::size_t>(std::exchange(count(place), std::uint8_t{0}));
+    if (ids == 0) return;
+    in_ring_ -= ids;
+    std::size_t gathered = ahead_.size();
+    ahead_.resize(gathered + ids);
+    for (std::size_t n = 0; n < ids; ++n) {
       const std::int32_t disk = span(place).ids[n];
       const double time = events.time(disk);
-      if (span_of(time) == current_) at_hand_.push_back({time, disk, events.other(disk)});
+      ahead_[gathered] = {time, disk, events.other(disk)};
+      gathered += static_cast<std::size_t>(span_of(time) == k);
+    }
+    ahead_.resize(gathered);
+  }
+
+  /// Puts the events that have been gathered at hand.
+  void put_at_hand(const Events& events) {
+    heaped_ = ahead_.size() > few;
+    if (heaped_) {
+      std::swap(at_hand_, ahead_);
+      std::make_heap(at_hand_.begin(), at_hand_.end(), Later{events});
+    } else {
+      sort_into_hand(events);
+    }
+    ahead_.clear();
+  }
+
+  /// Puts them there in order, the latest first.
+  void sort_into_hand(const Events& events) {
+    alignas(64) std::array<double, few> times;
+    std::array<std::uint8_t, few> later, placed{};
+    for (std::size_t n = 0; n < ahead_.size(); ++n) times[n] = ahead_[n].time;
+    count_later_(times.data(), ahead_.size(), later.data());
+    at_hand_.resize(ahead_.size());
+    for (std::size_t n = 0; n < ahead_.size(); ++n) {
+      const std::size_t first = later[n];  // of the places of all at this time
+      std::size_t i = first + placed[first]++;
+      at_hand_[i] = ahead_[n];
+      if (i > first) [[unlikely]]
+        sink(events, i, first);
     }
   }
 
@@ -296,11 +336,11 @@ class CalendarQueue {
     }
   }
 
-  /// Moves entry i to its place among the entries before it, the latest of which comes first.
-  void sink(const Events& events, std::size_t i) {
+  /// Moves entry i to its place among those from `first` on and before it, the latest of which comes first.
+  void sink(const Events& events, std::size_t i, std::size_t first = 0) {
     const Later later{events};
     const Entry entry = at_hand_[i];
-    for (; i > 0 && later(entry, at_hand_[i - 1]); --i) at_hand_[i] = at_hand_[i - 1];
+    for (; i > first && later(entry, at_hand_[i - 1]); --i) at_hand_[i] = at_hand_[i - 1];
     at_hand_[i] = entry;
   }
 
@@ -318,8 +358,10 @@ class CalendarQueue {
   std::int64_t sort_out_at_ = 0;  ///< when the far events are looked through
   std::size_t in_ring_ = 0;       ///< ids in the ring, those that no longer count among them
   std::uint64_t pushed_ = 0;
-  std::int32_t free_ = none;  ///< unused spans
-  std::vector<Entry> at_hand_;
+  std::int32_t free_ = none;    ///< unused spans
+  std::vector<Entry> at_hand_;  ///< the latest first, or a heap
+  std::vector<Entry> ahead_;    ///< events of the span whose turn is next
+  CountLater count_later_ = count_later();
   bool heaped_ = false;
   std::vector<Entry> later_;
   bool far_ = false;         ///< ids wait

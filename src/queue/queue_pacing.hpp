@@ -10,9 +10,9 @@
 
 namespace carom {
 
-/// The number of spans in the ring of a calendar for so many disks: a power of two, 0.375 to 0.75 of their number, so that few
+/// The number of spans in the ring of a calendar for so many disks: a power of two, 0.094 to 0.19 of their number, so that few
 /// events lie beyond it.
-inline std::size_t calendar_spans(std::size_t disks) { return std::bit_ceil(std::max<std::size_t>(64, disks * 3 / 8)); }
+inline std::size_t calendar_spans(std::size_t disks) { return std::bit_ceil(std::max<std::size_t>(64, disks * 3 / 32)); }
 
 class QueuePacing {
  public:
@@ -25,7 +25,7 @@ class QueuePacing {
     if (times.empty()) return;
     const auto median = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
     std::nth_element(times.begin(), median, times.end());
-    const double span = 4.0 * *median / static_cast<double>(times.size());
+    const double span = 16.0 * *median / static_cast<double>(times.size());
     constexpr double infinite = std::numeric_limits<double>::infinity();
     if (span > 0.0 && span < infinite)
       span_ = span;
@@ -56,9 +56,9 @@ class QueuePacing {
   }
 
  private:
-  /// Events per span: between two and eight there is little difference in speed. More in a ring that is short for the number of
+  /// Events per span: between 14 and 45 there is little difference in speed. More in a ring that is short for the number of
   /// disks, so that it is three events of each disk long.
-  static constexpr double fewest = 6.0, most = 7.5;
+  static constexpr double fewest = 24.0, most = 30.0;
 
   double span_ = 0.0;
   double events_per_span_ = fewest;

@@ -61,9 +61,9 @@ struct InEither {
 };
 
 void expect_as_twin(const Trial& trial, std::uint64_t seed) {
-  for (const bool far : {false, true}) expect_as_twin(trial, seed, InCalendar{far, {}});
   for (const std::string_view set : instruction_sets) {
     const WithInstructions asked(set);
+    for (const bool far : {false, true}) expect_as_twin(trial, seed, InCalendar{far, {}});
     expect_as_twin(trial, seed, InTournament{});
     expect_as_twin(trial, seed, InEither{});
   }
