@@ -192,7 +192,7 @@ void EventLoop<Impact, Layout, World>::start_queue() {
   }
   queue_.start(pacing_.span(), lines_.size(), epoch_length_, prefetcher_.looks_ahead(), pacing_.busy());
   for (std::int32_t i = 0; i < count(); ++i) schedule(i);
-  pacing_.begin(queue_.pushed());
+  pacing_.begin(now_, queue_.pushed());
 }
 
 }  // namespace carom

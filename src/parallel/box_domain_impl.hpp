@@ -470,7 +470,7 @@ void BoxDomain<Impact, Layout, World>::begin_epoch() {
                lines_.size() - homes_ - halo_.size());
   for (std::int32_t i = 0; i < count(); ++i)
     if (!empty(i)) schedule(i);
-  pacing_.begin(queue_.pushed());
+  pacing_.begin(now_, queue_.pushed());
 }
 
 template <class Impact, class Layout, class World>

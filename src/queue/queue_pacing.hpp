@@ -39,10 +39,12 @@ class QueuePacing {
   /// Whether the last epoch had a new event for every fourth disk or more.
   [[nodiscard]] bool busy() const { return busy_; }
 
-  /// Counts events from here: the queue has been filled, and `pushed` counts the events that it ever got.
-  void begin(std::uint64_t pushed) { begun_with_ = pushed; }
-  /// Judges the time `elapsed` since begin(): `pushed` counts now the events that the queue ever got.
-  void judge(double elapsed, std::uint64_t pushed, std::size_t disks) {
+  /// Counts events from time `now` of the epoch on, which may be its middle: the queue has been filled, and `pushed` counts the
+  /// events that it ever got.
+  void begin(double now, std::uint64_t pushed) { begun_at_ = now, begun_with_ = pushed; }
+  /// Judges the time from begin() until `now`: `pushed` counts the events that the queue ever got by now.
+  void judge(double now, std::uint64_t pushed, std::size_t disks) {
+    const double elapsed = now - begun_at_;
     const std::uint64_t events = pushed - begun_with_;
     const bool enough = events > disks / 4 + 16;  // too few say nothing: an epoch may have been cut short
     events_per_span_ = std::clamp(3.0 * static_cast<double>(disks) / static_cast<double>(calendar_spans(disks)), fewest, most);
@@ -52,7 +54,7 @@ class QueuePacing {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(span_, begun_with_, busy_);
+    archive(span_, begun_at_, begun_with_, busy_);
   }
 
  private:
@@ -62,6 +64,7 @@ class QueuePacing {
 
   double span_ = 0.0;
   double events_per_span_ = fewest;
+  double begun_at_ = 0.0;
   std::uint64_t begun_with_ = 0;
   bool busy_ = true;
 };

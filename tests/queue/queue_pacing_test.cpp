@@ -14,10 +14,17 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 TEST(QueuePacing, ASpanIsAsLongAsTwentyFourEventsTake) {
   QueuePacing pacing;
   EXPECT_EQ(pacing.span(), 0.0);
-  pacing.begin(1000);
+  pacing.begin(0.0, 1000);
   pacing.judge(12.0, 1000 + 400, 100);
   EXPECT_EQ(pacing.span(), 24.0 * 12.0 / 400.0);
   EXPECT_TRUE(pacing.busy());
+}
+
+TEST(QueuePacing, OfAnEpochThatItHasNotSeenTheBeginningOfItCountsTheTimeThatItHas) {
+  QueuePacing pacing;
+  pacing.begin(9.0, 1000);  // as where disks are shared out in the middle of an epoch
+  pacing.judge(12.0, 1000 + 400, 100);
+  EXPECT_EQ(pacing.span(), 24.0 * 3.0 / 400.0);
 }
 
 TEST(QueuePacing, TheRingIsThreeEventsOfEachDiskLong) {
@@ -26,7 +33,7 @@ TEST(QueuePacing, TheRingIsThreeEventsOfEachDiskLong) {
     EXPECT_GE(spans, 3.0 / 32.0 * all - 1.0);
     EXPECT_LE(spans, 6.0 / 32.0 * all);
     QueuePacing pacing;
-    pacing.begin(0);
+    pacing.begin(0.0, 0);
     pacing.judge(1.0, 100'000, disks);
     EXPECT_GE(spans * pacing.span() * 100'000.0, 2.8 * all) << disks;
     EXPECT_LE(pacing.span() * 100'000.0, 30.0) << disks;
@@ -36,7 +43,7 @@ TEST(QueuePacing, TheRingIsThreeEventsOfEachDiskLong) {
 
 TEST(QueuePacing, OfAPartOfTheDisksASpanIsLonger) {
   QueuePacing pacing;
-  pacing.begin(0);
+  pacing.begin(0.0, 0);
   pacing.judge(12.0, 400, 100);
   pacing.lengthen_span(16.0);
   EXPECT_EQ(pacing.span(), 16.0 * (24.0 * 12.0 / 400.0));
@@ -64,7 +71,7 @@ TEST(QueuePacing, TooFewEventsChangeNoSpanAndMeanThatFewAreToBeExpected) {
   QueuePacing pacing;
   pacing.choose_span({0.75}, 10.0);
   ASSERT_EQ(pacing.span(), 12.0);
-  pacing.begin(1000);
+  pacing.begin(0.0, 1000);
   pacing.judge(12.0, 1000 + 100 / 4 + 16, 100);
   EXPECT_EQ(pacing.span(), 12.0);
   EXPECT_FALSE(pacing.busy());
@@ -75,7 +82,7 @@ TEST(QueuePacing, TooFewEventsChangeNoSpanAndMeanThatFewAreToBeExpected) {
 
 TEST(QueuePacing, AnEpochWithoutTimeSaysNothingOfWhatIsToBeExpected) {
   QueuePacing pacing;
-  pacing.begin(0);
+  pacing.begin(0.0, 0);
   pacing.judge(0.0, 0, 100);
   EXPECT_TRUE(pacing.busy());
 }
