@@ -13,7 +13,7 @@ struct Threads {
   std::size_t threads = 1;         ///< that compute at the same time; with 1 the engine runs alone, without domains
   std::size_t domains = 0;         ///< parts of the box, at most 32, or 1024 on several ranks; 0 for one for each thread
   double halo = 0.0;               ///< width of halos, in largest contact distances; 0 for one that suits the density
-  double events_per_window = 1.0;  ///< events of each disk in the first window between two exchanges; > 0
+  double events_per_window = 0.5;  ///< events of each disk in the first window between two exchanges; > 0
 };
 
 /// What sharing a simulation out has taken since Simulation::set_threads(), in changed scenes too.

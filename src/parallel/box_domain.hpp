@@ -51,7 +51,7 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
 
   /// What the comparison of copies with the messages of their homes has shown.
   struct Verdict {
-    double nearest = infinity<double>;  ///< distance (length) from home of the nearest disk that was wrong
+    double nearest = infinity<double>;  ///< distance (length) from home of the nearest disk that was wrong: see Domains::decide()
     bool conflict = false;              ///< two domains hold one disk for their own
     std::uint64_t compared = 0, wrong = 0;
   };
@@ -207,7 +207,7 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
       stopped_ = true;
   }
   void limit_events() { most_events_ = 64 * (homes_ + halo_.size()) + 4096; }
-  void remember(std::int32_t i, double time) {
+  [[gnu::always_inline]] void remember(std::int32_t i, double time) {
     std::uint64_t& history = mark(i).history;
     history = (history ^ std::bit_cast<std::uint64_t>(time)) * 0x9E3779B97F4A7C15U;
     history ^= history >> 29;
@@ -233,7 +233,8 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   template <class SlotOf>
   static std::vector<PairStep> slots_of(const StepsOfPairs& steps, SlotOf&& slot);
   [[nodiscard]] Message message_of(std::int32_t i) const;
-  [[nodiscard]] bool same(std::int32_t i, const Message& message) const;
+  [[nodiscard]] bool same_events(std::int32_t i, const Message& message) const;
+  [[nodiscard]] bool same_plan(std::int32_t i, const Message& message) const;
   /// The bits that say which neighbours copy a disk at home.
   [[nodiscard]] std::uint32_t copies_of(NeighbourhoodCentre centre) const;
 

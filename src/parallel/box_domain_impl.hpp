@@ -304,18 +304,23 @@ void BoxDomain<Impact, Layout, World>::begin_reading() {
   verdict_ = Verdict{};
 }
 
-/// Whether a copy is what its home says.
+/// Whether a copy has had the events that its home says, and is where these have brought it.
 template <class Impact, class Layout, class World>
-bool BoxDomain<Impact, Layout, World>::same(std::int32_t i, const Message& message) const {
-  const Plan& plan = plans_[i];
+bool BoxDomain<Impact, Layout, World>::same_events(std::int32_t i, const Message& message) const {
   const NeighbourhoodCentre centre = lists_.centre(i);
   const Line &mine = line(i), &there = message.line;
   const auto equal = [](double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); };
   return mine.x[0] == there.x[0] && mine.x[1] == there.x[1] && equal(mine.v[0], there.v[0]) && equal(mine.v[1], there.v[1]) &&
-         plan.pair_time == message.pair_time && plan.edge_time == message.edge_time && plan.edge == message.edge &&
-         (plan.partner < 0 ? -1 : id(plan.partner)) == message.partner && centre.x == message.centre.x &&
-         centre.y == message.centre.y && mark(i).history == message.history && flight_.rest_of(i) == message.frame &&
-         impact_.rest_of(i) == message.impact && steps_of(i) == message.steps &&
+         centre.x == message.centre.x && centre.y == message.centre.y && mark(i).history == message.history &&
+         flight_.rest_of(i) == message.frame && impact_.rest_of(i) == message.impact && steps_of(i) == message.steps;
+}
+
+/// Whether a copy is to do next what its home says.
+template <class Impact, class Layout, class World>
+bool BoxDomain<Impact, Layout, World>::same_plan(std::int32_t i, const Message& message) const {
+  const Plan& plan = plans_[i];
+  return plan.pair_time == message.pair_time && plan.edge_time == message.edge_time && plan.edge == message.edge &&
+         (plan.partner < 0 ? -1 : id(plan.partner)) == message.partner &&
          (plan.partner >= 0 && plans_.is_stale(plan)) == message.stale;
 }
 
@@ -341,10 +346,15 @@ void BoxDomain<Impact, Layout, World>::read_lines(std::span<const Message> messa
     } else {
       ++verdict_.compared;
       const NeighbourhoodCentre centre = lists_.centre(i);
-      changed = !same(i, message);
+      const bool right = same_events(i, message);
+      changed = !right || !same_plan(i, message);
       if (changed) {
         ++verdict_.wrong;
-        verdict_.nearest = std::min({verdict_.nearest, parts_.outside(message.centre, me_), parts_.outside(centre, me_)});
+        // A wrong plan alone has done no harm: what it was made from is farther out, and counts there. But a disk that has just
+        // come home from another domain would bring it along.
+        const double harmless = right ? read_at_home() - lists_.half_width() : 0.0;
+        verdict_.nearest =
+            std::min(verdict_.nearest, std::min(parts_.outside(message.centre, me_), parts_.outside(centre, me_)) + harmless);
         if (centre.x != message.centre.x || centre.y != message.centre.y) {
           const std::uint64_t changes = lists_.changes();
           (void)lists_.move_neighbourhood(i, message.centre);

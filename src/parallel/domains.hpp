@@ -238,12 +238,10 @@ class Domains {
   void take_back(MakeLists&& make_lists);
   /// The largest contact distance, of disks as large as lists are for.
   [[nodiscard]] double contact() const { return whole_.sizes_.largest_contact * whole_.sizes_.listed_scale; }
-  /// How far halos are to reach beyond homes (length): by themselves three times as far as a home looks, where that is more than
-  /// usual, as in a dilute gas with its wide neighbourhoods.
+  /// How far halos are to reach beyond homes (length), by themselves five times as far as a home looks: between four and six
+  /// times there is little difference in speed at packing fractions from 0.05 to 0.75.
   [[nodiscard]] double suitable_reach() const {
-    constexpr double usual = 10.0;  // largest contact distances: what takes least time from packing fractions of 0.3 on
-    if (threads_.halo > 0.0) return threads_.halo * contact();
-    return std::max(usual * contact(), 3.0 * (whole_.sizes_.reach + 2.0 * half_width_));
+    return threads_.halo > 0.0 ? threads_.halo * contact() : 5.0 * (whole_.sizes_.reach + 2.0 * half_width_);
   }
   bool is_unbalanced();
   [[nodiscard]] bool has_failed() { return failure_.any() || !failure_elsewhere_.empty(); }
