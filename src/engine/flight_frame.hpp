@@ -82,6 +82,7 @@ class FlightFrame {
     if (!rests_.empty()) rest.steps = rests_[static_cast<std::size_t>(i)];
     return rest;
   }
+  void prefetch_rest(std::int32_t i) const { images_.prefetch_count(i); }
   void set_rest(std::int32_t i, const DiskRest& rest) {
     for (int k = 0; k < 2; ++k) images_.set(i, k, rest.images[k]);
     if (!rests_.empty()) rests_[static_cast<std::size_t>(i)] = rest.steps;

@@ -3,6 +3,7 @@
 // has gone further than these can count. Beyond that, after two thousand million box lengths, the rest is in a list of the few.
 
 #include "core/large_memory.hpp"
+#include "core/prefetch.hpp"
 
 #include <array>
 #include <cstddef>
@@ -31,6 +32,8 @@ class ImageCounts {
 
   /// `by` is 1 or -1. Seldom called, and so kept out of the way of what is.
   [[gnu::noinline, gnu::cold]] void step(std::int32_t i, int axis, std::int32_t by) { set(i, axis, of(i, axis) + by); }
+
+  void prefetch_count(std::int32_t i) const { prefetch_early(&low_[static_cast<std::size_t>(i)]); }
 
   [[nodiscard]] std::size_t bytes() const { return low_.capacity() * sizeof(low_[0]) + far_.size() * sizeof(*far_.begin()); }
 

@@ -76,6 +76,13 @@ class Prefetcher {
     }
   }
 
+  /// The partner in a collision, or the disk itself where it has none: fetched twice then, in place of a branch that would be
+  /// guessed wrong.
+  static std::int32_t partner_or_itself(std::int32_t i, std::int32_t other) {
+    const std::int32_t none = other >> 31;  // all bits or none
+    return (other & ~none) | (i & none);
+  }
+
  private:
   static long second_level_cache() {
 #if defined(_SC_LEVEL2_CACHE_SIZE)
@@ -84,12 +91,6 @@ class Prefetcher {
     return 1L << 20;
   }
 
-  /// The partner in a collision, or the disk itself where it has none: fetched twice then, in place of a branch that would be
-  /// guessed wrong.
-  static std::int32_t partner_or_itself(std::int32_t i, std::int32_t other) {
-    const std::int32_t none = other >> 31;  // all bits or none
-    return (other & ~none) | (i & none);
-  }
   template <class Line>
   static void disk(const PrefetchedData<Line>& of, std::int32_t i) {
     prefetch(&of.line(i)), of.lists.prefetch_list(i);

@@ -221,6 +221,16 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
     return redrawn_ + 1 < due_.size() && due_[redrawn_ + 1].number == due_[redrawn_].number;
   }
   [[gnu::noinline]] void prefetch_span(std::int64_t span) const;
+  /// So many disks ahead messages ask for what they need of a disk's partner, and twice as many for what they need of a disk.
+  static constexpr std::size_t ahead = 8;
+  void prefetch_disk(std::int32_t i) const {
+    prefetch_early(&line(i)), prefetch_early(&plans_[i]), prefetch_early(&mark(i)), flight_.prefetch_rest(i);
+    lists_.prefetch_list_early(i);
+  }
+  void prefetch_partner(std::int32_t i) const {
+    const std::int32_t partner = Prefetcher::partner_or_itself(i, plans_[i].partner);
+    prefetch_early(&plans_[partner]), prefetch_early(&ids_[static_cast<std::size_t>(partner)]);
+  }
   [[gnu::noinline]] void step_copy(std::int32_t i, double time, bool with_home);
   std::int32_t slot_for(std::int32_t disk);
   void recycle_slots();

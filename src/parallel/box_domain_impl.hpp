@@ -284,13 +284,9 @@ void BoxDomain<Impact, Layout, World>::write_messages() {
     std::erase_if(copied_[n], [&](std::int32_t i) { return (mark(i).copied_by >> n & 1U) == 0; });
     outboxes_[n].clear();
     if (const std::size_t size = copied_[n].size(); size > outboxes_[n].capacity()) outboxes_[n].reserve(size + size / 16 + 16);
-    constexpr std::size_t ahead = 8;
     for (std::size_t k = 0; k < copied_[n].size(); ++k) {
-      if (k + ahead < copied_[n].size()) {
-        const std::int32_t next = copied_[n][k + ahead];
-        prefetch_early(&line(next)), prefetch_early(&plans_[next]), prefetch_early(&mark(next));
-        lists_.prefetch_list_early(next);
-      }
+      if (k + 2 * ahead < copied_[n].size()) prefetch_disk(copied_[n][k + 2 * ahead]);
+      if (k + ahead < copied_[n].size()) prefetch_partner(copied_[n][k + ahead]);
       outboxes_[n].push_back(message_of(copied_[n][k]));
     }
   }
@@ -326,13 +322,11 @@ bool BoxDomain<Impact, Layout, World>::same_plan(std::int32_t i, const Message& 
 
 template <class Impact, class Layout, class World>
 void BoxDomain<Impact, Layout, World>::read_lines(std::span<const Message> messages) {
-  constexpr std::size_t ahead = 8;
   for (std::size_t k = 0; k < messages.size(); ++k) {
+    if (k + 2 * ahead < messages.size())
+      if (const std::int32_t next = slot_of_.find(messages[k + 2 * ahead].id); next >= 0) prefetch_disk(next);
     if (k + ahead < messages.size())
-      if (const std::int32_t next = slot_of_.find(messages[k + ahead].id); next >= 0) {
-        prefetch_early(&line(next)), prefetch_early(&plans_[next]), prefetch_early(&mark(next));
-        lists_.prefetch_list_early(next);
-      }
+      if (const std::int32_t next = slot_of_.find(messages[k + ahead].id); next >= 0) prefetch_partner(next);
     const Message& message = messages[k];
     const std::int32_t i = slot_for(message.id);
     if (crowded_) return;
