@@ -155,6 +155,8 @@ RC_GTEST_PROP(PropertyThreads, GiveTheBitsOfOneForAnyGas, ()) {
   const Threads threads = any_threads();
   try {
     if (!make_simulation(scene).why_not_threads().empty()) scene.effects.growth.reset();  // until they fill the box
+    if (!make_simulation(scene).why_not_threads().empty())
+      RC_DISCARD("the box is too narrow for the engine that can be shared out");
   } catch (const SceneError&) {
     RC_DISCARD("the lattice does not fit");
   }
