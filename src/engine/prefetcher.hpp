@@ -51,7 +51,7 @@ class Prefetcher {
   template <class Line>
   void partner_of_next(const PrefetchedData<Line>& of) const {
     if (!of.queue.predicts_next()) return;
-    const std::int32_t i = of.queue.predicted_next(), j = of.plans[i].partner < 0 ? i : of.plans[i].partner;
+    const std::int32_t i = of.queue.predicted_next(), j = partner_or_itself(i, of.plans[i].partner);
     prefetch(&of.plans[j]), disk(of, j);
   }
 

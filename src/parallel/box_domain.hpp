@@ -51,7 +51,8 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
 
   /// What the comparison of copies with the messages of their homes has shown.
   struct Verdict {
-    double nearest = infinity<double>;  ///< distance (length) from home of the nearest disk that was wrong: see Domains::decide()
+    double nearest = infinity<double>;  ///< distance (length) from home of the nearest disk that was wrong; more than it is where
+                                        ///< its plan alone was
     bool conflict = false;              ///< two domains hold one disk for their own
     std::uint64_t compared = 0, wrong = 0;
   };

@@ -238,8 +238,8 @@ class Domains {
   void take_back(MakeLists&& make_lists);
   /// The largest contact distance, of disks as large as lists are for.
   [[nodiscard]] double contact() const { return whole_.sizes_.largest_contact * whole_.sizes_.listed_scale; }
-  /// How far halos are to reach beyond homes (length), by themselves five times as far as a home looks: between four and six
-  /// times there is little difference in speed at packing fractions from 0.05 to 0.75.
+  /// How far halos are to reach beyond homes (length), by themselves five times as far as a home looks: from four and a half
+  /// to five and a half times there is little difference in speed at packing fractions from 0.05 to 0.75.
   [[nodiscard]] double suitable_reach() const {
     return threads_.halo > 0.0 ? threads_.halo * contact() : 5.0 * (whole_.sizes_.reach + 2.0 * half_width_);
   }

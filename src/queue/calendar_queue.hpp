@@ -7,8 +7,8 @@
 // Then its events are gathered, and sorted when the turn has come. Any number of ids finds room in a span, far events wait aside,
 // and events at infinity are not kept at all.
 //
-// A span has a dozen or two of events, and what is done once for each span, gathering, sorting and fetching ahead, has loops as
-// long as that without a branch on times: where spans are short, the processor guesses wrong several times in each.
+// A span has one or two dozen events. What is done once for each span, gathering, sorting and fetching ahead, has loops as long
+// as that, without a branch on times: where spans are short, the processor guesses wrong several times in each.
 //
 // Ties: events at the same time are ordered by Events::precedes(a, b).
 

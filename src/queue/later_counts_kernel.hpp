@@ -11,14 +11,14 @@ namespace {
 
 #if defined(__AVX512F__)
 
-using Times = double __attribute__((vector_size(64)));
+using Times = EightDoubles;
 
-CAROM_INLINE Times times_of(double x) { return Times{x, x, x, x, x, x, x, x}; }
 /// The number of times later than one, of those in so many vectors.
 template <std::size_t vectors>
-CAROM_INLINE int number_later(const Times* all, double time) {
+CAROM_INLINE int number_later(const Times* all_times, double time) {
   int later = 0;
-  for (std::size_t k = 0; k < vectors; ++k) later += __builtin_popcount(_mm512_cmp_pd_mask(all[k], times_of(time), _CMP_GT_OQ));
+  for (std::size_t k = 0; k < vectors; ++k)
+    later += __builtin_popcount(_mm512_cmp_pd_mask(all_times[k], all_eight(time), _CMP_GT_OQ));
   return later;
 }
 

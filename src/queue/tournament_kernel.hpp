@@ -29,11 +29,11 @@ CAROM_INLINE double least_of(Doubles four) {
 #endif
 #if defined(__AVX512F__)
 
-using Times = double __attribute__((vector_size(64)));
+using Times = EightDoubles;
 
 CAROM_INLINE Times load(const double* times) { return _mm512_load_pd(times); }
 CAROM_INLINE void store(double* to, Times times) { _mm512_store_pd(to, times); }
-CAROM_INLINE Times times_of(double x) { return Times{x, x, x, x, x, x, x, x}; }
+CAROM_INLINE Times times_of(double x) { return all_eight(x); }
 CAROM_INLINE Times lesser(Times a, Times b) { return a < b ? a : b; }
 /// a, but b at a place.
 CAROM_INLINE Times replaced(Times a, std::size_t place, Times b) {

@@ -53,7 +53,7 @@ TEST(Threads, KeepTheirWindowsAfterAStartFromALattice) {
       // A void window costs one core what its epoch has had so far; a second one in the same epoch, all of it.
       const ThreadCounts counts = shared.thread_counts();
       const auto epochs = static_cast<double>(shared.totals().numerics.epochs);
-      EXPECT_LE(counts.share_alone(), static_cast<double>(counts.windows_redone) / epochs) << packing_fraction;
+      EXPECT_LE(counts.share_alone(), std::min(static_cast<double>(counts.windows_redone) / epochs, 0.3)) << packing_fraction;
     }
 }
 
