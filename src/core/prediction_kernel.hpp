@@ -208,17 +208,20 @@ CAROM_INLINE Doubles meeting_times(const Line* lines, const PredictionFrame& fra
   return contact_times<growing>(frame, x, y, vx, vy, sigma, now);
 }
 
+/// The earliest time, that of all neighbours with a bit in `which`, into `first`.
+CAROM_INLINE void earliest(double time, unsigned which, const std::int32_t* ids, Prediction& first) {
+  const std::int32_t no_partner = -static_cast<std::int32_t>(time == never);  // all bits or none
+  first.pair_time = time;
+  first.partner = ids[__builtin_ctz(which)] | no_partner;
+  first.tied = static_cast<std::int32_t>(which & (which - 1)) & ~no_partner;
+}
+
 /// The earliest of eight times, into `first`.
 CAROM_INLINE void earliest(Doubles t0, Doubles t1, const std::int32_t* ids, Prediction& first) {
   const Doubles t = lesser(t0, t1);
   const Doubles u = lesser(t, __builtin_shufflevector(t, t, 2, 3, 0, 1));
   const Doubles least = lesser(u, __builtin_shufflevector(u, u, 1, 0, 3, 2));
-  const unsigned which = bits_of(t0 == least) | (bits_of(t1 == least) << 4);
-  const double time = least[0];
-  const std::int32_t no_partner = -static_cast<std::int32_t>(time == never);  // all bits or none
-  first.pair_time = time;
-  first.partner = ids[__builtin_ctz(which)] | no_partner;
-  first.tied = static_cast<std::int32_t>(which & (which - 1)) & ~no_partner;
+  earliest(least[0], bits_of(t0 == least) | (bits_of(t1 == least) << 4), ids, first);
 }
 
 /// The earliest of twelve times, into `first`.
@@ -226,12 +229,7 @@ CAROM_INLINE void earliest(Doubles t0, Doubles t1, Doubles t2, const std::int32_
   const Doubles t = lesser(lesser(t0, t1), t2);
   const Doubles u = lesser(t, __builtin_shufflevector(t, t, 2, 3, 0, 1));
   const Doubles least = lesser(u, __builtin_shufflevector(u, u, 1, 0, 3, 2));
-  const unsigned which = bits_of(t0 == least) | (bits_of(t1 == least) << 4) | (bits_of(t2 == least) << 8);
-  const double time = least[0];
-  const std::int32_t no_partner = -static_cast<std::int32_t>(time == never);  // all bits or none
-  first.pair_time = time;
-  first.partner = ids[__builtin_ctz(which)] | no_partner;
-  first.tied = static_cast<std::int32_t>(which & (which - 1)) & ~no_partner;
+  earliest(least[0], bits_of(t0 == least) | (bits_of(t1 == least) << 4) | (bits_of(t2 == least) << 8), ids, first);
 }
 
 /// Predicts disk i with all neighbours beyond the first twelve, four at a time.
@@ -370,15 +368,10 @@ CAROM_INLINE EightDoubles lengths(EightLongs a, EightLongs b, double unit) {
   return reinterpret_cast<EightDoubles>(_mm512_maskz_cvtepi64_pd(0xFF, steps)) * all_eight(unit);
 }
 
-/// Separations at `now` and relative velocities of eight pairs, and their contact distances.
-struct RelativeMotion {
-  EightDoubles x, y, vx, vy, sigma;
-};
-
-/// The motion of `mine` relative to each of eight others: four and four.
-template <class Line, class MineOfEight>
-CAROM_INLINE RelativeMotion relative_motion(const Line* lines, const PredictionFrame& frame, const MineOfEight& mine,
-                                            const std::int32_t* ids, const std::int32_t* more, double now) {
+/// When `mine` meets each of eight others: four and four.
+template <bool growing, class Line, class MineOfEight>
+CAROM_INLINE EightDoubles meeting_times(const Line* lines, const PredictionFrame& frame, const MineOfEight& mine,
+                                        const std::int32_t* ids, const std::int32_t* more, double now) {
   const Line &l0 = lines[ids[0]], &l1 = lines[ids[1]], &l2 = lines[ids[2]], &l3 = lines[ids[3]];
   const Line &l4 = lines[more[0]], &l5 = lines[more[1]], &l6 = lines[more[2]], &l7 = lines[more[3]];
   const EightLongs a02 = load_both(l0, l2), a13 = load_both(l1, l3);
@@ -404,77 +397,7 @@ CAROM_INLINE RelativeMotion relative_motion(const Line* lines, const PredictionF
     sigma *= EightDoubles{scales[l0.species],    scales[l1.species],    scales[l2.species],    scales[l3.species],
                           with_more[l4.species], with_more[l5.species], with_more[l6.species], with_more[l7.species]};
   }
-  return {x, y, vx, vy, sigma};
-}
-
-/// When `mine` meets each of eight others: four and four.
-template <bool growing, class Line, class MineOfEight>
-CAROM_INLINE EightDoubles meeting_times(const Line* lines, const PredictionFrame& frame, const MineOfEight& mine,
-                                        const std::int32_t* ids, const std::int32_t* more, double now) {
-  const auto [x, y, vx, vy, sigma] = relative_motion(lines, frame, mine, ids, more, now);
   return contact_times<growing>(frame, x, y, vx, vy, sigma, now);
-}
-
-/// The terms of contact_times() for eight pairs, up to the root and the quotient, and which of these pairs meet: a bit for each.
-/// They are few: mostly one to three.
-struct Approach {
-  EightDoubles b, c, d;
-  unsigned meeting;
-};
-
-template <class Line>
-CAROM_INLINE Approach approach(const Line* lines, const PredictionFrame& frame, std::int32_t i, const std::int32_t* ids,
-                               double now) {
-  const auto [x, y, vx, vy, sigma] = relative_motion(lines, frame, mine_of_eight(lines[i], frame), ids, ids + 4, now);
-  const EightDoubles sigma2 = sigma * sigma;
-  const EightDoubles b = x * vx + y * vy;
-  const EightDoubles s = x * vy - y * vx;
-  const EightDoubles d = sigma2 * (vx * vx + vy * vy) - s * s;
-  const __mmask8 nearing = _mm512_cmp_pd_mask(reinterpret_cast<__m512d>(b), _mm512_setzero_pd(), _CMP_LT_OQ);
-  const __mmask8 meeting = _mm512_mask_cmp_pd_mask(nearing, reinterpret_cast<__m512d>(d), _mm512_setzero_pd(), _CMP_GE_OQ);
-  return {b, (x * x + y * y) - sigma2, d, meeting};
-}
-
-/// For each set of eight lanes the first four of them, a byte for each.
-struct FirstFour {
-  std::uint32_t lanes[256];
-
-  constexpr FirstFour() : lanes{} {
-    for (unsigned bits = 0; bits < 256; ++bits)
-      for (unsigned lane = 0, n = 0; lane < 8 && n < 4; ++lane)
-        if ((bits >> lane & 1U) != 0) lanes[bits] |= lane << 8 * n++;
-  }
-};
-constexpr FirstFour first_four;
-
-/// Returns a bit for each of the first four of some lanes, from the lowest on.
-CAROM_INLINE unsigned up_to_four(unsigned lanes) { return _bzhi_u32(0xF, static_cast<unsigned>(__builtin_popcount(lanes))); }
-/// Leaves out the first four of some lanes.
-CAROM_INLINE unsigned after_four(unsigned lanes) { return lanes & ~_pdep_u32(0xF, lanes); }
-
-/// The times of the first four of some pairs that meet; of fewer, and never.
-CAROM_INLINE Doubles first_times(const Approach& a, unsigned meeting, double now) {
-  const __m512i which = _mm512_maskz_cvtepu8_epi64(0xFF, _mm_cvtsi32_si128(static_cast<int>(first_four.lanes[meeting])));
-  const auto of = [which](EightDoubles terms) {
-    const auto those = reinterpret_cast<EightDoubles>(_mm512_maskz_permutexvar_pd(0xFF, which, reinterpret_cast<__m512d>(terms)));
-    return __builtin_shufflevector(those, those, 0, 1, 2, 3);
-  };
-  const Doubles wait = above_zero(of(a.c) / (square_root(of(a.d)) - of(a.b)));
-  return reinterpret_cast<Doubles>(_mm256_mask_add_pd(_mm256_set1_pd(never), static_cast<__mmask8>(up_to_four(meeting)),
-                                                      _mm256_set1_pd(now), reinterpret_cast<__m256d>(wait)));
-}
-/// The same for two disks at once: the first four of the one, then the first four of the other.
-CAROM_INLINE EightDoubles first_times(const Approach& a, unsigned meeting_a, const Approach& b, unsigned meeting_b, double now) {
-  const std::uint64_t lanes = first_four.lanes[meeting_a] | std::uint64_t{first_four.lanes[meeting_b] | 0x08080808U} << 32;
-  const __m512i which = _mm512_maskz_cvtepu8_epi64(0xFF, _mm_cvtsi64_si128(static_cast<long long>(lanes)));
-  const auto of = [which](EightDoubles terms_a, EightDoubles terms_b) {
-    return reinterpret_cast<EightDoubles>(
-        _mm512_permutex2var_pd(reinterpret_cast<__m512d>(terms_a), which, reinterpret_cast<__m512d>(terms_b)));
-  };
-  const EightDoubles wait = above_zero(of(a.c, b.c) / (square_root(of(a.d, b.d)) - of(a.b, b.b)));
-  const auto there = static_cast<__mmask8>(up_to_four(meeting_a) | up_to_four(meeting_b) << 4);
-  return reinterpret_cast<EightDoubles>(
-      _mm512_mask_add_pd(_mm512_set1_pd(never), there, _mm512_set1_pd(now), reinterpret_cast<__m512d>(wait)));
 }
 
 /// The least of four times in all lanes; of eight, the least of the first four in their lanes and that of the others in the
@@ -494,63 +417,41 @@ CAROM_INLINE unsigned bits_of_equal(EightDoubles a, EightDoubles b) {
   return _mm512_cmp_pd_mask(reinterpret_cast<__m512d>(a), reinterpret_cast<__m512d>(b), _CMP_EQ_OQ);
 }
 
-/// The earliest time, which those of the first twelve neighbours have that have a bit in `which`, into `first`.
-CAROM_INLINE void earliest(double time, unsigned which, const std::int32_t* ids, Prediction& first) {
-  const std::int32_t no_partner = -static_cast<std::int32_t>(time == never);  // all bits or none
-  first.pair_time = time;
-  first.partner = ids[_tzcnt_u32(which) & 15U] | no_partner;  // the first id where there is none
-  first.tied = static_cast<std::int32_t>(which & (which - 1)) & ~no_partner;
-}
-
 /// What disk i meets first among its first twelve neighbours.
-template <class Line>
+template <bool growing, class Line>
 CAROM_INLINE void first_meeting(const Line* lines, const PredictionFrame& frame, std::int32_t i, const Surroundings& around,
                                 double now, Prediction& first) {
   const std::int32_t* const ids = around.ids;
-  if (around.count <= 4) {
-    const Doubles t = meeting_times<false>(lines, frame, mine_of(lines[i], frame), ids, now);
-    const Doubles least = least_of_fours(t);
-    return earliest(least[0], bits_of_equal(t, least), ids, first);
-  }
-  const Approach to = approach(lines, frame, i, ids, now);
-  const unsigned rest = after_four(to.meeting);
-  const Doubles t = first_times(to, to.meeting, now);
-  Doubles of_all = t, of_rest = t, of_more = t;
-  if (rest != 0) [[unlikely]]
-    of_all = lesser(of_all, of_rest = first_times(to, rest, now));
-  if (around.count > 8)
-    of_all = lesser(of_all, of_more = meeting_times<false>(lines, frame, mine_of(lines[i], frame), ids + 8, now));
+  const bool more = around.count > 8;
+  const EightDoubles t = meeting_times<growing>(lines, frame, mine_of_eight(lines[i], frame), ids, ids + 4, now);
+  Doubles of_all = lesser(__builtin_shufflevector(t, t, 0, 1, 2, 3), __builtin_shufflevector(t, t, 4, 5, 6, 7));
+  Doubles of_more = of_all;
+  if (more) of_all = lesser(of_all, of_more = meeting_times<growing>(lines, frame, mine_of(lines[i], frame), ids + 8, now));
   const Doubles least = least_of_fours(of_all);
-  unsigned which = _pdep_u32(bits_of_equal(t, least), to.meeting);
-  if (rest != 0) [[unlikely]]
-    which |= _pdep_u32(bits_of_equal(of_rest, least), rest);
-  if (around.count > 8) which |= bits_of_equal(of_more, least) << 8;
+  unsigned which = bits_of_equal(t, all_eight(least[0]));
+  if (more) which |= bits_of_equal(of_more, least) << 8;
   earliest(least[0], which, ids, first);
 }
 
 /// What collided disks meet first among their first eight and, where `most` has more, twelve neighbours.
-template <class Line>
+template <bool growing, class Line>
 CAROM_INLINE void first_meetings(const Line* lines, const PredictionFrame& frame, std::uint32_t most, double now,
                                  CollidedPair& pair) {
   const std::int32_t *const ids_a = pair.around[0].ids, *const ids_b = pair.around[1].ids;
-  const Approach a = approach(lines, frame, pair.disk[0], ids_a, now), b = approach(lines, frame, pair.disk[1], ids_b, now);
-  const unsigned rest_a = after_four(a.meeting), rest_b = after_four(b.meeting);
-  const bool rest = (rest_a | rest_b) != 0, more = most > 8;
-  const EightDoubles t = first_times(a, a.meeting, b, b.meeting, now);
-  EightDoubles of_all = t, of_rest = t, of_more = t;
-  if (rest) [[unlikely]]
-    of_all = lesser(of_all, of_rest = first_times(a, rest_a, b, rest_b, now));
+  const auto mine_a = mine_of_eight(lines[pair.disk[0]], frame), mine_b = mine_of_eight(lines[pair.disk[1]], frame);
+  const bool more = most > 8;
+  const EightDoubles a = meeting_times<growing>(lines, frame, mine_a, ids_a, ids_a + 4, now);
+  const EightDoubles b = meeting_times<growing>(lines, frame, mine_b, ids_b, ids_b + 4, now);
+  EightDoubles of_all =
+      lesser(__builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11), __builtin_shufflevector(a, b, 4, 5, 6, 7, 12, 13, 14, 15));
+  EightDoubles of_more = of_all;
   if (more) {
-    const auto mine = halves(mine_of_eight(lines[pair.disk[0]], frame), mine_of_eight(lines[pair.disk[1]], frame));
-    of_all = lesser(of_all, of_more = meeting_times<false>(lines, frame, mine, ids_a + 8, ids_b + 8, now));
+    of_more = meeting_times<growing>(lines, frame, halves(mine_a, mine_b), ids_a + 8, ids_b + 8, now);
+    of_all = lesser(of_all, of_more);
   }
   const EightDoubles least = least_of_fours(of_all);
-  const unsigned first = bits_of_equal(t, least);
-  unsigned which_a = _pdep_u32(first & 0xF, a.meeting), which_b = _pdep_u32(first >> 4, b.meeting);
-  if (rest) [[unlikely]] {
-    const unsigned equal = bits_of_equal(of_rest, least);
-    which_a |= _pdep_u32(equal & 0xF, rest_a), which_b |= _pdep_u32(equal >> 4, rest_b);
-  }
+  unsigned which_a = bits_of_equal(a, __builtin_shufflevector(least, least, 0, 1, 2, 3, 0, 1, 2, 3));
+  unsigned which_b = bits_of_equal(b, __builtin_shufflevector(least, least, 4, 5, 6, 7, 4, 5, 6, 7));
   if (more) {
     const unsigned equal = bits_of_equal(of_more, least);
     which_a |= (equal & 0xF) << 8, which_b |= equal >> 4 << 8;
@@ -559,23 +460,7 @@ CAROM_INLINE void first_meetings(const Line* lines, const PredictionFrame& frame
   earliest(least[4], which_b, ids_b, pair.ahead[1]);
 }
 
-/// The same for disks that grow: most of them meet sooner or later.
-template <class Line>
-CAROM_INLINE void first_meetings_of_growing(const Line* lines, const PredictionFrame& frame, std::uint32_t most, double now,
-                                            CollidedPair& pair) {
-  const std::int32_t *const ids_a = pair.around[0].ids, *const ids_b = pair.around[1].ids;
-  const auto a = mine_of_eight(lines[pair.disk[0]], frame), b = mine_of_eight(lines[pair.disk[1]], frame);
-  const auto low = [](EightDoubles t) { return __builtin_shufflevector(t, t, 0, 1, 2, 3); };
-  const auto high = [](EightDoubles t) { return __builtin_shufflevector(t, t, 4, 5, 6, 7); };
-  const EightDoubles ta = meeting_times<true>(lines, frame, a, ids_a, ids_a + 4, now);
-  const EightDoubles tb = meeting_times<true>(lines, frame, b, ids_b, ids_b + 4, now);
-  EightDoubles more = all_eight(never);
-  if (most > 8) more = meeting_times<true>(lines, frame, halves(a, b), ids_a + 8, ids_b + 8, now);
-  earliest(low(ta), high(ta), low(more), ids_a, pair.ahead[0]);
-  earliest(low(tb), high(tb), high(more), ids_b, pair.ahead[1]);
-}
-
-#endif
+#else
 
 /// What a disk meets first among its first twelve neighbours, four at a time.
 template <bool growing, class Line>
@@ -589,7 +474,6 @@ CAROM_INLINE void first_meeting_by_fours(const Line* lines, const PredictionFram
   earliest(t0, t1, t2, around.ids, first);
 }
 
-#if !defined(__AVX512F__)
 /// What collided disks meet first among their first eight and, where `most` has more, twelve neighbours, four at a time.
 template <bool growing, class Line>
 CAROM_INLINE void first_meetings(const Line* lines, const PredictionFrame& frame, const Mine<Line>& a, const Mine<Line>& b,
@@ -619,11 +503,10 @@ void predict(const Line* lines, const PredictionFrame& frame, std::int32_t i, co
                                         Longs{around.centre[0], around.centre[1], 0, 0}, now);
   ahead.edge_time = leaving[0] < leaving[1] ? leaving[0] : leaving[1];
 #if defined(__AVX512F__)
-  if constexpr (!growing)
-    first_meeting(lines, frame, i, around, now, ahead);
-  else
+  first_meeting<growing>(lines, frame, i, around, now, ahead);
+#else
+  first_meeting_by_fours<growing>(lines, frame, mine_of(line, frame), around, now, ahead);
 #endif
-    first_meeting_by_fours<growing>(lines, frame, mine_of(line, frame), around, now, ahead);
   if (around.count > 12) search_on<growing>(lines, frame, i, around, now, ahead);
 }
 
@@ -645,10 +528,7 @@ void turn_and_predict(Line* lines, const PredictionFrame& frame, CollidedPair& p
   pair.ahead[0].edge_time = edge[0];
   pair.ahead[1].edge_time = edge[2];
 #if defined(__AVX512F__)
-  if constexpr (growing)
-    first_meetings_of_growing(lines, frame, most, now, pair);
-  else
-    first_meetings(lines, frame, most, now, pair);
+  first_meetings<growing>(lines, frame, most, now, pair);
 #else
   const Mine<Line> mine_a = mine_of(a, frame, all_of<0>(x), all_of<1>(x), all(avx), all(avy));
   const Mine<Line> mine_b = mine_of(b, frame, all_of<2>(x), all_of<3>(x), all(bvx), all(bvy));
