@@ -17,16 +17,6 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-#if defined(__AVX2__)
-
-/// The least of four.
-CAROM_INLINE double least_of(Doubles four) {
-  const Doubles swapped = __builtin_shufflevector(four, four, 2, 3, 0, 1), two = four < swapped ? four : swapped;
-  const Doubles turned = __builtin_shufflevector(two, two, 1, 0, 3, 2);
-  return (two < turned ? two : turned)[0];
-}
-
-#endif
 #if defined(__AVX512F__)
 
 using Times = EightDoubles;
@@ -35,27 +25,30 @@ CAROM_INLINE Times load(const double* times) { return _mm512_load_pd(times); }
 CAROM_INLINE void store(double* to, Times times) { _mm512_store_pd(to, times); }
 CAROM_INLINE Times times_of(double x) { return all_eight(x); }
 CAROM_INLINE Times lesser(Times a, Times b) { return a < b ? a : b; }
+CAROM_INLINE double any_of(Times a) { return a[0]; }
 /// a, but b at a place.
 CAROM_INLINE Times replaced(Times a, std::size_t place, Times b) {
   return _mm512_mask_mov_pd(a, static_cast<__mmask8>(1U << (place & 7)), b);
 }
 
-CAROM_INLINE double least_of(Times a) {
-  const Doubles low = __builtin_shufflevector(a, a, 0, 1, 2, 3), high = __builtin_shufflevector(a, a, 4, 5, 6, 7);
-  return least_of(low < high ? low : high);
+/// The least in all places.
+CAROM_INLINE Times least_of(Times a) {
+  const Times b = lesser(a, __builtin_shufflevector(a, a, 4, 5, 6, 7, 0, 1, 2, 3));
+  const Times c = lesser(b, __builtin_shufflevector(b, b, 2, 3, 0, 1, 6, 7, 4, 5));
+  return lesser(c, __builtin_shufflevector(c, c, 1, 0, 3, 2, 5, 4, 7, 6));
 }
-CAROM_INLINE double least_of(const double* group) {
+CAROM_INLINE Times least_of(const double* group) {
   return least_of(lesser(lesser(load(group), load(group + 8)), lesser(load(group + 16), load(group + 24))));
 }
 
 /// Returns which of 32 times are equal to one, a bit for each.
-CAROM_INLINE std::uint32_t equal_to(Times a, Times b, Times c, Times d, double time) {
-  const auto eight = [time](Times t) -> __mmask16 { return _mm512_cmp_pd_mask(t, times_of(time), _CMP_EQ_OQ); };
+CAROM_INLINE std::uint32_t equal_to(Times a, Times b, Times c, Times d, Times time) {
+  const auto eight = [time](Times t) -> __mmask16 { return _mm512_cmp_pd_mask(t, time, _CMP_EQ_OQ); };
   const std::uint32_t low = _mm512_kunpackb(eight(b), eight(a)), high = _mm512_kunpackb(eight(d), eight(c));
   return low | high << 16;
 }
 
-CAROM_INLINE std::uint32_t among(const double* group, double time) {
+CAROM_INLINE std::uint32_t among(const double* group, Times time) {
   return equal_to(load(group), load(group + 8), load(group + 16), load(group + 24), time);
 }
 
@@ -67,18 +60,22 @@ CAROM_INLINE Times load(const double* times) { return _mm256_load_pd(times); }
 CAROM_INLINE void store(double* to, Times times) { _mm256_store_pd(to, times); }
 CAROM_INLINE Times times_of(double x) { return all(x); }
 CAROM_INLINE Times lesser(Times a, Times b) { return a < b ? a : b; }
+CAROM_INLINE double any_of(Times a) { return a[0]; }
 CAROM_INLINE Times replaced(Times a, std::size_t place, Times b) {
   const __m256i lane = _mm256_set1_epi64x(static_cast<long long>(place & 3));
   return _mm256_blendv_pd(a, b, _mm256_castsi256_pd(_mm256_cmpeq_epi64(lane, _mm256_setr_epi64x(0, 1, 2, 3))));
 }
 
-CAROM_INLINE double least_of(const double* group) {
+/// The least in all places.
+CAROM_INLINE Times least_of(const double* group) {
   const auto eight = [&](int n) { return lesser(load(group + n), load(group + n + 4)); };
-  return least_of(lesser(lesser(eight(0), eight(8)), lesser(eight(16), eight(24))));
+  const Times a = lesser(lesser(eight(0), eight(8)), lesser(eight(16), eight(24)));
+  const Times b = lesser(a, __builtin_shufflevector(a, a, 2, 3, 0, 1));
+  return lesser(b, __builtin_shufflevector(b, b, 1, 0, 3, 2));
 }
 
-CAROM_INLINE std::uint32_t among(const double* group, double time) {
-  const auto four = [&](int n) { return _mm256_cmp_pd(load(group + n), all(time), _CMP_EQ_OQ); };
+CAROM_INLINE std::uint32_t among(const double* group, Times time) {
+  const auto four = [&](int n) { return _mm256_cmp_pd(load(group + n), time, _CMP_EQ_OQ); };
   // Answers of 64 bits become such of 32, 16, 8.
   const auto eight = [&](int n) {
     return _mm256_castps_si256(_mm256_shuffle_ps(_mm256_castpd_ps(four(n)), _mm256_castpd_ps(four(n + 4)), 0x88));
@@ -101,13 +98,14 @@ CAROM_INLINE Times load(const double* times) { return {*times}; }
 CAROM_INLINE void store(double* to, Times times) { *to = times.time; }
 CAROM_INLINE Times times_of(double x) { return {x}; }
 CAROM_INLINE Times lesser(Times a, Times b) { return {std::min(a.time, b.time)}; }
+CAROM_INLINE double any_of(Times a) { return a.time; }
 CAROM_INLINE Times replaced(Times /*a*/, std::size_t /*place*/, Times b) { return b; }
 
-CAROM_INLINE double least_of(const double* group) { return *std::min_element(group, group + tournament_group); }
+CAROM_INLINE Times least_of(const double* group) { return {*std::min_element(group, group + tournament_group)}; }
 
-CAROM_INLINE std::uint32_t among(const double* group, double time) {
+CAROM_INLINE std::uint32_t among(const double* group, Times time) {
   std::uint32_t bits = 0;
-  for (std::size_t n = 0; n < tournament_group; ++n) bits |= static_cast<std::uint32_t>(group[n] == time) << n;
+  for (std::size_t n = 0; n < tournament_group; ++n) bits |= static_cast<std::uint32_t>(group[n] == time.time) << n;
   return bits;
 }
 
@@ -118,9 +116,9 @@ CAROM_INLINE double* vector_of(double* level, std::size_t place) {
   return level + (place & ~(sizeof(Times) / sizeof(double) - 1));
 }
 
-CAROM_INLINE void set(double* level, std::size_t place, double time) {
+CAROM_INLINE void set(double* level, std::size_t place, Times time) {
   double* const vector = vector_of(level, place);
-  store(vector, replaced(load(vector), place, times_of(time)));
+  store(vector, replaced(load(vector), place, time));
 }
 
 CAROM_INLINE void lower(double* level, std::size_t place, double time) {
@@ -128,26 +126,26 @@ CAROM_INLINE void lower(double* level, std::size_t place, double time) {
   store(vector, replaced(load(vector), place, lesser(load(vector), times_of(time))));
 }
 
-/// The least time of a group, and its members that have it, a bit for each.
+/// The least time of a group in all places, and its members that have it, a bit for each.
 struct Least {
-  double time;
+  Times time;
   std::uint32_t members;
 };
 
 /// Sets the time of one member of a group.
-CAROM_INLINE Least replace(double* group, std::size_t place, double time) {
+CAROM_INLINE Least replace(double* group, std::size_t place, Times time) {
 #if defined(__AVX512F__)
   double* const vector = vector_of(group, place);
-  const Times mine = replaced(load(vector), place, times_of(time));
+  const Times mine = replaced(load(vector), place, time);
   store(vector, mine);
   // Not read back: that would be waited for.
   const auto other = [&](std::size_t n) { return load(vector_of(group, (place + n) % tournament_group)); };
   const Times second = other(8), third = other(16), fourth = other(24);
-  const double least = least_of(lesser(mine, lesser(second, lesser(third, fourth))));
+  const Times least = least_of(lesser(mine, lesser(second, lesser(third, fourth))));
   return {least, std::rotl(equal_to(mine, second, third, fourth, least), static_cast<int>(place & ~std::size_t{7}))};
 #else
   set(group, place, time);
-  const double least = least_of(group);
+  const Times least = least_of(group);
   return {least, among(group, least)};
 #endif
 }
@@ -162,15 +160,16 @@ constexpr bool keeps_first = levels > 2;
 
 template <int levels>
 Winner winner(const TournamentTree& tree) {
-  const double time = least_of(tree.level[levels - 1]);
-  std::uint32_t bits = among(tree.level[levels - 1], time), others = bits & (bits - 1);
+  const Times least = least_of(tree.level[levels - 1]);
+  const double time = any_of(least);
+  std::uint32_t bits = among(tree.level[levels - 1], least), others = bits & (bits - 1);
   std::size_t place = first_of(bits);
   if constexpr (keeps_first<levels>) {
     const std::uint32_t first = tree.first[levels - 1][place];
     return {time, static_cast<std::int32_t>(first & ~tournament_tied), others | (first & tournament_tied)};
   }
   for (int n = levels - 2; n >= 0; --n) {
-    bits = among(tree.level[n] + tournament_group * place, time);
+    bits = among(tree.level[n] + tournament_group * place, least);
     others |= bits & (bits - 1);
     place = tournament_group * place + first_of(bits);
   }
@@ -180,7 +179,7 @@ Winner winner(const TournamentTree& tree) {
 template <int levels>
 CAROM_INLINE void take(const TournamentTree& tree, std::int32_t disk) {
   auto place = static_cast<std::size_t>(disk);
-  double time = never;
+  Times time = times_of(never);
   for (int n = 0; n < levels - 1; ++n) {
     const std::size_t group = place / tournament_group;
     const Least least = replace(tree.level[n] + tournament_group * group, place % tournament_group, time);
@@ -230,11 +229,13 @@ void take_and_enter_two(const TournamentTree& tree, std::int32_t out, std::int32
   enter<levels>(tree, j, time_j);
 }
 
+std::uint32_t members(const double* group, double time) { return among(group, times_of(time)); }
+
 }  // namespace
 
 #define CAROM_TOURNAMENT(name, levels)   \
   extern const TournamentKernel name = { \
-      &winner<levels>, &take<levels>, &enter<levels>, &take_and_enter<levels>, &take_and_enter_two<levels>, &among};
+      &winner<levels>, &take<levels>, &enter<levels>, &take_and_enter<levels>, &take_and_enter_two<levels>, &members};
 CAROM_TOURNAMENT(tournament_of_two_levels, 2)
 CAROM_TOURNAMENT(tournament_of_three_levels, 3)
 #undef CAROM_TOURNAMENT
