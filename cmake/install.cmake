@@ -21,6 +21,8 @@ install(FILES ${PROJECT_BINARY_DIR}/caromConfig.cmake ${PROJECT_BINARY_DIR}/caro
 
 # The same for pkg-config: carom, carom-io, carom-pages. The files find the prefix from where they are.
 file(RELATIVE_PATH carom_prefix_from_pc /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+list(TRANSFORM carom_eigen_definitions PREPEND -D OUTPUT_VARIABLE carom_eigen_flags)
+list(JOIN carom_eigen_flags " " carom_eigen_flags)
 # What a program links to beside Carom's library: with a static one all that it uses, with a shared one nothing.
 function(carom_pc name library description requires private)
   set(needs "${requires}")
@@ -40,7 +42,7 @@ Name: @name@
 Description: @description@
 Version: @PROJECT_VERSION@
 Requires: @needs@
-Cflags: -I\${includedir} -std=c++20
+Cflags: -I\${includedir} -std=c++20 @carom_eigen_flags@
 Libs: -L\${libdir} @links@
 ")
   install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT library)
