@@ -149,8 +149,9 @@ class Simulation {
   /// Goes to the next event, if there is one up to and including `until`, and returns it: a collision with a disk, a wall or an
   /// obstacle, the edge of a well, or a new velocity by the thermostat (Event::partner says which). Otherwise goes to `until`,
   /// where that is finite, and returns nothing. So it does too where the simulation cannot go on, and run_until() says why; and
-  /// without `until` where disks have flown a hundred million times and met nothing. Throws
-  /// std::logic_error for a fixed-step method, which has no events.
+  /// without `until` where disks have flown a hundred million times and met nothing. Throws std::logic_error for a fixed-step
+  /// method, which has no events; std::invalid_argument where `until` is NaN; SceneError where a change of the scene cannot be
+  /// made.
   std::optional<Event> step(double until = std::numeric_limits<double>::infinity());
 
   /// Changes what acts on the disks, while the simulation runs: from now on scene().effects is what is given. All
@@ -187,15 +188,17 @@ class Simulation {
   /// Runs on several cores from now on, or on one again. No bit of what follows depends on it. What cannot be shared out, as
   /// single steps, is done by one core in between; the first run after that shares the disks out again, which takes the time of
   /// some events per disk. Throws std::invalid_argument where a number is not as carom/threads.hpp says, or several threads are
-  /// asked for and why_not_threads() has a reason against them.
+  /// asked for and why_not_threads() has a reason against them. While an effect keeps it on one core until a change of the scene
+  /// ends that, it is shared out from then on.
   void set_threads(const Threads& threads);
   /// Does so on that many threads of each of the ranks, which must outlive the simulation (carom/ranks.hpp). This is rank 0; the
   /// others are in serve_ranks(). Throws std::runtime_error too where one of them has no memory for it.
   void set_threads(const Threads& threads, Ranks& ranks);
-  /// Returns how many threads (of each rank) compute it now: those of set_threads(), but 1 while an effect acts that has been set
-  /// since and does not run on several.
+  /// Returns how many threads (of each rank) compute it now: those of set_threads(), but 1 while an effect acts that does not run
+  /// on several.
   [[nodiscard]] std::size_t threads() const;
-  /// Returns why this simulation runs on one core only, in half a sentence; empty where it can be shared out.
+  /// Returns why this simulation runs on one core only, in half a sentence; empty where it can be shared out, now or after one of
+  /// the scene's changes.
   [[nodiscard]] std::string why_not_threads() const;
   /// Returns what sharing it out has taken so far.
   [[nodiscard]] ThreadCounts thread_counts() const;
@@ -250,7 +253,8 @@ Simulation make_simulation(const Scene& scene, const std::string& engine = "auto
 /// images, and what effects of this scene go on from: spins where there is roughness, the scale of radii where disks grow, places
 /// of moving walls and velocities of pistons, the displacement of images that slide. The rest is dropped, remainders too, so that
 /// every engine begins with the same numbers. The scene is checked as above. Throws std::invalid_argument too where any of it is
-/// not finite, a position is outside the box, or there is not one position and one velocity for each of the scene's disks.
+/// not finite, a position is outside the box, or there is not one position and one velocity for each of the scene's disks; nor
+/// one image and one spin, or four walls, where there are any. Disks may overlap, as fixed steps leave them: such pairs part.
 Simulation make_simulation(const Scene& scene, const State& start, const std::string& engine = "auto");
 
 /// The scene advanced by a fixed-step method in place of exact events, through the same door: states between two steps are those

@@ -43,8 +43,8 @@ std::string why_not_single(const Scene& scene, const Disks& disks) {
 
 const std::vector<EngineEntry>& catalogue() {
   static const std::vector<EngineEntry> entries = {
-      {"fast", &why_not_fast, &make_fast, false},
-      {"general", &why_not_general, &make_general},
+      {"fast", &why_not_fast, &make_fast, false, true},
+      {"general", &why_not_general, &make_general, true, true},
       {"textbook", &never, &make_textbook<double>},
       {"textbook-float", &why_not_single, &make_textbook<float>},
       {"textbook-long-double", &never, &make_textbook<long double>},

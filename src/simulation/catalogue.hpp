@@ -19,6 +19,7 @@ struct EngineEntry {
   std::unique_ptr<AnyEngine> (*make)(const Scene& scene, const Disks& disks, State start);
 
   bool takes_rules = true;  ///< a program's own for collisions of pairs
+  bool shares_out = false;  ///< runs on several cores where no effect keeps it on one
 
   [[nodiscard]] bool covers(const Scene& scene, const Disks& disks) const { return why_not(scene, disks).empty(); }
 };

@@ -82,6 +82,10 @@ struct Simulation::Parts {
   void make_change();
   /// Has the engine compute on the threads of all ranks. The other ranks are in serve_ranks(), and serve no simulation.
   void share_out();
+  /// Returns what keeps it on one core now, in half a sentence; empty where nothing does.
+  [[nodiscard]] std::string why_not_threads_now() const;
+  /// Whether it can be shared out after one of the scene's changes.
+  [[nodiscard]] bool can_be_shared_out_later() const;
   /// Throws std::invalid_argument where there is a reason against sharing it out.
   static void require_shareable(const std::string& why_not);
   /// Throws std::logic_error where nothing can be changed now.

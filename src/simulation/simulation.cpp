@@ -181,13 +181,29 @@ std::optional<Event> Simulation::step(double until) {
   return parts_->next_event(std::isinf(until) && until > 0.0 ? forever : Instant{until, 0.0}, RunLimits::none, arrived);
 }
 
-std::string Simulation::why_not_threads() const {
-  const std::string reason = parts_->engine->why_not_threads();
+std::string Simulation::Parts::why_not_threads_now() const {
+  const std::string reason = engine->why_not_threads();
   if (reason.empty()) return reason;
-  if (parts_->time_step) return "a fixed-step method runs on one core";
-  if (std::string of_effects = detail::why_not_threads(parts_->scene.effects, parts_->disks); !of_effects.empty())
-    return of_effects;
+  if (time_step) return "a fixed-step method runs on one core";
+  if (std::string of_effects = detail::why_not_threads(scene.effects, disks); !of_effects.empty()) return of_effects;
   return reason;
+}
+bool Simulation::Parts::can_be_shared_out_later() const {
+  if (time_step || rule || rule_missing) return false;
+  Scene later = scene;
+  const auto shares_out = [&](const Change& change) {
+    later.effects = effects_after(later.effects, change);
+    if (!detail::why_not_threads(later.effects, disks).empty()) return false;
+    const std::vector<detail::EngineEntry>& engines = detail::catalogue();
+    return std::any_of(engines.begin(), engines.end(), [&](const detail::EngineEntry& entry) {
+      return entry.shares_out && (engine_asked == "auto" || engine_asked == entry.name) && entry.covers(later, disks);
+    });
+  };
+  return std::any_of(scene.changes.begin(), scene.changes.end(), shares_out);
+}
+std::string Simulation::why_not_threads() const {
+  std::string reason = parts_->why_not_threads_now();
+  return !reason.empty() && parts_->can_be_shared_out_later() ? std::string() : reason;
 }
 void Simulation::set_threads(const Threads& threads) {
   const Threads given = detail::with_domains(threads, 1);
@@ -195,7 +211,7 @@ void Simulation::set_threads(const Threads& threads) {
   parts_->threads = given;
   parts_->threads_before = {};
   parts_->ranks = nullptr;
-  parts_->engine->set_threads(given);
+  if (parts_->engine->why_not_threads().empty()) parts_->engine->set_threads(given);
 }
 void Simulation::set_threads(const Threads& threads, Ranks& ranks) {
   if (ranks.size() == 1) return set_threads(threads);
@@ -204,7 +220,7 @@ void Simulation::set_threads(const Threads& threads, Ranks& ranks) {
   set_threads({});
   parts_->threads = given;
   parts_->ranks = &ranks;
-  parts_->share_out();
+  if (parts_->engine->why_not_threads().empty()) parts_->share_out();
 }
 std::size_t Simulation::threads() const { return parts_->engine->thread_counts().threads; }
 ThreadCounts Simulation::thread_counts() const {
@@ -233,7 +249,8 @@ void Simulation::take_events(std::vector<Event>& events) {
 bool Simulation::supports_collision_records() const {
   const Effects& effects = whole_scene().effects;
   return parts_->engine->supports_collision_records() && !has_collision_rule() && velocities_determine_contacts(effects) &&
-         !detail::any_acting(effects, &detail::EffectTraits::bends_paths);
+         !detail::any_acting(effects, &detail::EffectTraits::bends_paths) &&
+         !detail::any_acting(effects, &detail::EffectTraits::changes_velocities_in_flight);
 }
 std::vector<std::string> Simulation::check_invariants(double tolerated_overlap) const {
   std::vector<std::string> faults = parts_->engine->check_invariants(tolerated_overlap);

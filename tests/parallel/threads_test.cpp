@@ -609,6 +609,30 @@ TEST(Threads, GoOnAfterSingleStepsAndChanges) {
   expect_same(alone, shared, "on one core again");
 }
 
+TEST(Threads, BeginWhereAChangeEndsWhatKeepsTheRunOnOneCore) {
+  Scene scene = lean_gas(4000, 0.5, Boundary::periodic);
+  scene.effects.drag = Drag{0.02};
+  EXPECT_EQ(make_simulation(scene).why_not_threads(), "drag slows the clock");
+  EXPECT_THROW(make_simulation(scene).set_threads({.domains = 3}), std::invalid_argument);
+  scene.changes = {{0.5, SetKeys{{"drag.rate=0"}}}};
+  EXPECT_THROW(make_simulation(scene, "textbook").set_threads({.domains = 3}), std::invalid_argument);
+  Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+  EXPECT_EQ(shared.why_not_threads(), "");
+  shared.set_threads({.domains = 3});
+  alone.run_until(2.0);
+  shared.run_until(0.3);
+  EXPECT_EQ(shared.thread_counts().windows, 0U);
+  std::stringstream saved;
+  shared.save(saved);
+  Simulation resumed = restore_simulation(scene, saved);
+  resumed.set_threads({.domains = 4});
+  for (Simulation* simulation : {&shared, &resumed}) {
+    simulation->run_until(2.0);
+    EXPECT_GT(simulation->thread_counts().windows, 0U);
+    expect_same(alone, *simulation, "after drag");
+  }
+}
+
 TEST(Threads, CountWhatTheyTookThroughChanges) {
   Scene scene = lean_gas(4000, 0.5, Boundary::walls);
   Simulation shared = make_simulation(scene);

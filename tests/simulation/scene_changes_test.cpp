@@ -283,6 +283,13 @@ TEST(SceneChanges, TheWholeRunKnowsWhatAProgramHasSet) {
   EXPECT_TRUE(simulation.whole_scene().effects.collision.restitution) << "which is to come";
 }
 
+TEST(SceneChanges, CollisionRecordsAreNotToBeHadWhereAChangeLetsVelocitiesChangeInFlight) {
+  for (const char* key : {"drag.rate=0.1", "thermostat={ temperature = 1.0, rate = 0.5 }", "growth.rate=0.01"})
+    EXPECT_FALSE(make_simulation(parse_scene(gas(fmt::format("[[changes]]\ntime = 3.0\nset = [\"{}\"]\n", key))))
+                     .supports_collision_records())
+        << key;
+}
+
 TEST(SceneChanges, KeysOfTheStartAreRefusedHoweverTheyAreWritten) {
   for (const char* key : {" box.x=[0, 5]", "disks=[]", " disks.0.radius = 0.1", "\\trun.time=1", "title =3"})
     EXPECT_THROW(parse_scene(gas(fmt::format("[[changes]]\ntime = 1.0\nset = [\"{}\"]\n", key))), SceneError) << key;
