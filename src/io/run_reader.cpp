@@ -7,6 +7,7 @@
 #include "io/h5md_parts.hpp"
 #include "io/hdf5_handle.hpp"
 #include "scene/changes.hpp"
+#include "text/numbers.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -126,8 +127,15 @@ std::vector<double> RunReader::sample_times() const {
   });
 }
 
-State RunReader::sample(std::uint64_t k) const {
+void RunReader::require_sample(std::uint64_t k) const {
   require_samples();
+  if (k >= samples_)
+    throw OutputError(fmt::format("{}: there is no sample {}: this run kept {}, numbered from 0", path_.string(), k,
+                                  counted(samples_, "sample")));
+}
+
+State RunReader::sample(std::uint64_t k) const {
+  require_sample(k);
   return guarded([&] {
     const std::uint64_t count = disks_.count();
     State state;
@@ -165,6 +173,7 @@ std::vector<double> RunReader::observable(const std::string& name, std::uint64_t
 }
 
 Totals RunReader::totals(std::uint64_t k) const {
+  require_sample(k);
   return guarded([&] {
     const std::vector<double> pairs = observable("pair_collisions", k, 1), virial = observable("virial", k, 1);
     if (pairs.empty() || virial.empty())
@@ -191,7 +200,13 @@ Totals RunReader::totals(std::uint64_t k) const {
   });
 }
 
+void RunReader::require_event_log() const {
+  if (!has_event_log_)
+    throw OutputError(fmt::format("{}: this run kept no events; run it with output.events = true", path_.string()));
+}
+
 State RunReader::start() const {
+  require_event_log();
   return guarded([&] {
     const auto count = static_cast<Eigen::Index>(disks_.count());
     const auto columns = [&](const std::string& dataset) {
@@ -230,12 +245,16 @@ Scene RunReader::scene(const std::vector<std::string>& overrides) const {
 }
 
 std::vector<Event> RunReader::event_log(std::uint64_t first, std::uint64_t number, double before) const {
+  if (number == 0) return {};
+  require_event_log();
+  if (first > events_ || number > events_ - first)
+    throw OutputError(fmt::format("{}: there are no events {} to {}: this run logged {}, numbered from 0", path_.string(), first,
+                                  first + (number - 1), counted(events_, "event")));
   return guarded([&] {
     const auto column = [&](const char* name, std::uint64_t row) {
       return rows(std::string("/events/") + name, first, number, row);
     };
     std::vector<Event> events(number);
-    if (number == 0) return events;
     const std::vector<double> time = column("time", 1), remainder = column("time_remainder", 1), disk = column("disk", 1),
                               partner = column("partner", 1);
     const std::vector<double> velocity = column("velocity", 2), partner_velocity = column("partner_velocity", 2);

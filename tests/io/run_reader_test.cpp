@@ -103,6 +103,35 @@ TEST_F(RunReaderTest, GivesStatesAndEventsOfTheEngineBitByBit) {
   }
 }
 
+TEST_F(RunReaderTest, RefusesSamplesAndEventsThatAreNotThere) {
+  const auto refusal = [](auto&& call) -> std::string {
+    try {
+      (void)call();
+      return "no error";
+    } catch (const OutputError& error) {
+      return error.what();
+    }
+  };
+  const RunReader reader(recorded());
+  EXPECT_THAT(refusal([&] { return reader.sample(13); }),
+              EndsWith("there is no sample 13: this run kept 13 samples, numbered from 0"));
+  EXPECT_THAT(refusal([&] { return reader.totals(~std::uint64_t{0}); }), HasSubstr("this run kept 13 samples"));
+  EXPECT_THAT(refusal([&] { return reader.event_log(0, ~std::uint64_t{0}, 0.0); }), HasSubstr("there are no events 0 to"));
+  EXPECT_THAT(refusal([&] { return reader.event_log(reader.events() - 1, 2, 0.0); }), HasSubstr("numbered from 0"));
+  EXPECT_EQ(reader.event_log(reader.events() - 1, 1, 0.0).size(), 1U);
+}
+
+TEST_F(RunReaderTest, SaysWhereARunKeptNoEvents) {
+  const RunReader reader(recorded({"output.events=false"}));
+  EXPECT_TRUE(reader.event_log().empty());
+  try {
+    (void)reader.start();
+    ADD_FAILURE() << "a start without a log";
+  } catch (const OutputError& error) {
+    EXPECT_THAT(error.what(), EndsWith("this run kept no events; run it with output.events = true"));
+  }
+}
+
 TEST_F(RunReaderTest, KnowsTheSceneAndItsDisks) {
   const RunReader reader(recorded());
   EXPECT_EQ(reader.title(), "Two kinds");

@@ -67,6 +67,8 @@ class RunReader {
   void read_trajectory();
   void read_scene();
   void require_samples() const;
+  void require_sample(std::uint64_t k) const;
+  void require_event_log() const;
   [[nodiscard]] std::vector<double> rows(const std::string& dataset, std::uint64_t first, std::uint64_t count,
                                          std::uint64_t row_size) const;
   /// Row k of /observables/NAME; empty where the file has none.
