@@ -145,12 +145,11 @@ void check_changes(const Scene& scene) {
   const auto until = [&](std::size_t k) -> std::optional<double> {
     return k < scene.changes.size() ? std::optional(scene.changes[k].time) : scene.run.time;
   };
-  check_time(scene, 0, "changes.0");
+  for (std::size_t k = 0; k < scene.changes.size(); ++k) check_time(scene, k, fmt::format("changes.{}", k));
   check_stage(stage_of(scene, now, box, until(0)));
   for (std::size_t k = 0; k < scene.changes.size(); ++k) {
     const Change& change = scene.changes[k];
     const std::string path = fmt::format("changes.{}", k);
-    check_time(scene, k, path);
     check_kind(change, path);
     move_walls(box, now, change.time - since + (k == 0 ? equilibrated : 0.0));
     since = change.time;

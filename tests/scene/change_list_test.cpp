@@ -98,6 +98,14 @@ TEST(Changes, AreRefusedWithTheirPlace) {
   EXPECT_THAT(refusal_of("[[changes]]\ntime = 2\nremove_disk = 1\n[[changes]]\ntime = 1\nremove_disk = 1\n"),
               HasSubstr("changes.1.time is 1, before the 2 of the change above"));
   EXPECT_THAT(refusal_of("changes = 3\n"), HasSubstr("[[changes]] with double brackets"));
+  Scene scene = Scene{.box = {.lower = {0.0, 0.0}, .upper = {5.0, 5.0}}, .run = {.time = 2.0}};
+  scene.changes = {{0.8, ScaleVelocities{2.0}}, {0.5, ScaleVelocities{3.0}}};
+  try {
+    check(scene);
+    ADD_FAILURE() << "changes out of order";
+  } catch (const SceneError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("changes.1.time is 0.5, before the 0.8 of the change above"));
+  }
 }
 
 }  // namespace
