@@ -26,6 +26,8 @@ int main() try {
     simulation.run_until(observation.next_sample());
     observation.sample(simulation);
   }
+  simulation.run_until(200.0);
+  observation.sample(simulation);  // what has happened since the last one
 
   for (const carom::Measurement& measured : observation.results())
     for (const carom::Scalar& number : measured.scalars)

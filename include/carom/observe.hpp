@@ -128,8 +128,8 @@ class Observation {
   Observation(const Observation&) = delete;
   Observation& operator=(const Observation&) = delete;
 
-  /// Adds an observable; to be called before the run. Throws SceneError where the observable follows collisions and something
-  /// changes velocities between them.
+  /// Adds an observable. Throws SceneError where the observable follows collisions and something changes velocities between
+  /// them; std::logic_error after attach() or the first sample(), for it would not be measured.
   void add(std::unique_ptr<Observable> observable);
   /// Returns whether there is nothing to observe.
   [[nodiscard]] bool empty() const;
@@ -155,7 +155,7 @@ class Observation {
   /// after equilibrating call Simulation::reset_clock(). So it does where the program has changed the simulation since this was
   /// made, by set_effects() and the like. Requires the simulation that this was made for.
   void sample(Simulation& simulation);
-  /// The time at which sample() is due next: infinite where no observable takes steps.
+  /// The time at which sample() is due next: 0 before the first call; then infinite where no observable takes steps.
   [[nodiscard]] double next_sample() const;
 
   /// Writes the state of all observables. To be called at a SavingMoment.

@@ -27,12 +27,21 @@ class Observation::Driver {
 
   [[nodiscard]] ObservableGroup& group() { return group_; }
 
+  void add(std::unique_ptr<Observable> observable) {
+    if (attached_ || begun_)
+      throw std::logic_error(fmt::format(
+          "{} comes too late to be measured; add observables before attach() and the first sample()", observable->name()));
+    group_.add(std::move(observable));
+  }
+
   void attach(RunHooks& hooks) {
+    attached_ = true;
     attach(hooks, group_, [](const std::vector<Observable*>& observables, const State& state, const Totals& totals) {
       for (Observable* observable : observables) observable->sample(state, totals);
     });
   }
   void attach_on_thread(RunHooks& hooks) {
+    attached_ = true;
     if (group_.empty()) return;
     try {
       thread_.emplace(group_);
@@ -142,7 +151,7 @@ class Observation::Driver {
         group_.change(made, simulation_.scene().effects, simulation_.state(), simulation_.totals());
         if (next) next(made);
       };
-    steps_ = group_.by_step();
+    if (steps_.empty()) steps_ = group_.by_step();  // not anew: hooks of an earlier run point to it
     for (const auto& [step, observables] : steps_) {
       const bool velocities_alone = std::ranges::none_of(observables, &Observable::needs_positions);
       hooks.grids.push_back(
@@ -157,6 +166,7 @@ class Observation::Driver {
   ObservableGroup group_;
   std::map<double, std::vector<Observable*>> steps_;
   std::optional<ObservingThread> thread_;
+  bool attached_ = false;
   bool begun_ = false;  ///< by sample()
   std::vector<Due> due_;
   std::vector<Event> events_;  ///< kept for its memory, as the state
@@ -171,7 +181,7 @@ Observation::Observation(const Simulation& simulation, std::istream& saved)
     : driver_(std::make_unique<Driver>(simulation, saved)) {}
 Observation::~Observation() = default;
 
-void Observation::add(std::unique_ptr<Observable> observable) { driver_->group().add(std::move(observable)); }
+void Observation::add(std::unique_ptr<Observable> observable) { driver_->add(std::move(observable)); }
 bool Observation::empty() const { return driver_->group().empty(); }
 double Observation::reference_temperature() const { return driver_->group().run().temperature; }
 std::vector<double> Observation::steps() const { return driver_->group().steps(); }

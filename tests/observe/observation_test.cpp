@@ -18,6 +18,28 @@ namespace {
 
 using ::testing::HasSubstr;
 
+TEST(Observation, MayBeAttachedToTheHooksOfSeveralRuns) {
+  Simulation simulation = make_simulation(parse_scene(small_fluid("pressure = { every = 0.5 }", "specular", "4.0")));
+  Observation observation(simulation);
+  RunHooks first, second;
+  observation.attach(first);
+  observation.attach(second);
+  run_schedule(simulation, first);
+  simulation.reset_clock();
+  run_schedule(simulation, second);
+  EXPECT_TRUE(observation.results().at(0).scalars.at(0).value.has_value());
+}
+
+TEST(Observation, RefusesWhatWouldNotBeMeasured) {
+  Simulation simulation = make_simulation(parse_scene(small_fluid("", "specular", "40.0")));
+  Observation attached(simulation), sampled(simulation);
+  RunHooks hooks;
+  attached.attach(hooks);
+  sampled.sample(simulation);
+  for (Observation* observation : {&attached, &sampled})
+    EXPECT_THROW(observation->add(std::make_unique<ImpactParameter>()), std::logic_error);
+}
+
 TEST(Observation, RunsAnObservableOfAProgramsOwn) {
   Simulation simulation = make_simulation(parse_scene(small_fluid("", "specular", "40.0")));
   Observation observation(simulation);
