@@ -520,7 +520,7 @@ class Schedule {
 }  // namespace
 
 std::uint64_t last_sample(const Run& run) {
-  if (run.sample_every_collisions) return run.collisions.value_or(0) / *run.sample_every_collisions;
+  if (run.sample_every_collisions) return run.collisions.value_or(0) / std::max<std::uint64_t>(*run.sample_every_collisions, 1);
   const std::optional<detail::SamplingTimes> times = detail::SamplingTimes::of(run);
   return run.time && times ? times->last(*run.time) : 0;
 }

@@ -149,6 +149,15 @@ Start start_of(const Scene& scene, Disks all, const State& state) {
                                             state.positions.cols(), state.velocities.cols(), disks));
   if (!state.positions.allFinite() || !state.velocities.allFinite())
     throw std::invalid_argument("a position or velocity of the given state is not finite");
+  const auto require_one_each = [&](Eigen::Index given, const char* what) {
+    if (given != 0 && given != disks)
+      throw std::invalid_argument(
+          fmt::format("a state of {} {} is given for {} disks; give one per disk, or none", given, what, disks));
+  };
+  require_one_each(state.images.cols(), "images");
+  require_one_each(state.spins.size(), "spins");
+  if (!state.walls.empty() && state.walls.size() != 4)
+    throw std::invalid_argument(fmt::format("a state of {} walls is given; give all four, or none", state.walls.size()));
   start.state.positions = state.positions;
   start.state.velocities = state.velocities;
   start.state.images = state.images;

@@ -687,6 +687,25 @@ TEST_P(BothDoors, RefuseTheSameInTheSameWords) {
 INSTANTIATE_TEST_SUITE_P(All, BothDoors, testing::ValuesIn(cases()),
                          [](const testing::TestParamInfo<Case>& one) { return one.param.name; });
 
+TEST(OneDoor, RefusesStatesOfAnotherSize) {
+  const Scene scene = parse_scene(base_text("walls"));
+  const auto refused = [&](const std::function<void(State&)>& change) {
+    State start = make_simulation(scene).state();
+    change(start);
+    try {
+      (void)make_simulation(scene, start);
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string("(accepted)");
+  };
+  EXPECT_EQ(refused([](State&) {}), "(accepted)");
+  EXPECT_EQ(refused([](State& s) { s.images.resize(2, 0); }), "(accepted)");
+  EXPECT_THAT(refused([](State& s) { s.images.conservativeResize(2, s.images.cols() - 1); }), HasSubstr("images is given for"));
+  EXPECT_THAT(refused([](State& s) { s.spins = Eigen::VectorXd::Zero(s.images.cols() + 1); }), HasSubstr("spins is given for"));
+  EXPECT_THAT(refused([](State& s) { s.walls.resize(2); }), HasSubstr("a state of 2 walls is given; give all four, or none"));
+}
+
 /// What no file can say.
 TEST(OneDoor, RefusesListsOfTheWrongLengthAndNumbersThatAreNone) {
   const Scene sound = parse_scene(base_text("walls"));
