@@ -47,6 +47,10 @@ function take(told) {
   if (!run.twin) run.twinNumbers = run.twinMarks = null;
   if (told.fault) notify(told.fault);
   run.isStale = true;
+  if (told.description && !run.isPlaying) {
+    put("hash", "…");
+    showHash();
+  }
 }
 const onDescription = [];
 

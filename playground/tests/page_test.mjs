@@ -282,6 +282,11 @@ await test("keys", async () => {
   await browser.key("h");
   await pause(200);
   check("hotter is faster", Math.abs(Math.abs(await ask("carom.run.vx[0]")) - 1.1) < 1e-9, await ask("carom.run.vx[0]"));
+  const shown = () => ask('document.querySelector("[data-number=hash]").textContent');
+  check("the hash is that of the faster disks", (await shown()) === (await ask("carom.stateHash()")), await shown());
+  await browser.key("Home");
+  await pause(300);
+  check("and after beginning anew that of the start", (await time()) === 0 && (await shown()) === (await ask("carom.stateHash()")), await shown());
 });
 
 await test("twin", async () => {
