@@ -541,7 +541,8 @@ std::string description(Session& session) {
 
 extern "C" {
 
-EMSCRIPTEN_KEEPALIVE const char* carom_load(const char* toml, const char* source, const char* overrides) {
+/// Loads a scene; the changes of the last text are made at their times. Keeps the session that is there where either is refused.
+EMSCRIPTEN_KEEPALIVE const char* carom_load(const char* toml, const char* source, const char* overrides, const char* changes) {
   return answered([&] {
     std::vector<std::string> list;
     std::string line;
@@ -559,6 +560,7 @@ EMSCRIPTEN_KEEPALIVE const char* carom_load(const char* toml, const char* source
       throw std::runtime_error(fmt::format("{}: {} disks are more than this page holds; at most {}, or take carom run", source,
                                            scene.disk_count(), most_disks));
     auto another = std::make_unique<Session>(scene);
+    if (*changes != '\0') another->replay(parse_changes(changes, "changes"));
     session = std::move(another);
     return description(*session);
   });
@@ -620,13 +622,6 @@ EMSCRIPTEN_KEEPALIVE const char* carom_apply(const char* body) {
   });
 }
 
-/// From now on the changes of the text are made at their times.
-EMSCRIPTEN_KEEPALIVE const char* carom_replay(const char* changes) {
-  return answered([&] {
-    here().replay(parse_changes(changes, "changes"));
-    return fmt::format("{{\"pending\":{}}}", here().pending());
-  });
-}
 EMSCRIPTEN_KEEPALIVE const char* carom_changes() {
   return answered([] {
     std::string text;

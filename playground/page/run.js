@@ -71,13 +71,12 @@ const changeRun = (body) => act("apply", { body });
 
 /// Loads a scene from its text. Keeps the run that is there where it is refused.
 async function loadText(scene, toml, { overrides = [], changes = "", start = {} } = {}) {
-  const told = await run.engine.ask("load", { toml, source: scene.id, overrides });
+  const told = await run.engine.ask("load", { toml, source: scene.id, overrides, changes });
   Object.assign(run, {
     scene, toml, overrides, start, measured: null, histogram: null, twin: null, twinNumbers: null, twinMarks: null, extent: null, lastEvent: null, checks: 0, fault: "",
     isLate: false, pairsPerSecond: 0,
   });
   take(told);
-  if (changes) await run.engine.ask("replay", { changes });
   let sum = 0;
   for (let i = 0; i < disks; ++i) sum += run.vx[i] ** 2 + run.vy[i] ** 2;
   const fall = Math.hypot(...run.description.gravity) * Math.min(...box.lengths);

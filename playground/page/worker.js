@@ -64,7 +64,8 @@ const does = {
     engine = await CaromEngine({ wasmBinary: wasm, print: () => {}, printErr: () => {} });
     return {};
   },
-  load: ({ toml, source, overrides }) => ({ ...properties(asked("load", toml, source, overrides.join("\n"))), ...moment({ measured: true, histogram: true }) }),
+  /// The changes come with the scene, so that no frame runs past the first of them before they are there.
+  load: ({ toml, source, overrides, changes }) => ({ ...properties(asked("load", toml, source, overrides.join("\n"), changes)), ...moment({ measured: true, histogram: true }) }),
   /// Advances by simulated time, within a budget of milliseconds.
   frame({ time, budget, about }) {
     const began = performance.now();
@@ -100,7 +101,6 @@ const does = {
     return { done, ...properties(asked("describe")), ...moment({ measured: true, histogram: true, twin: true }) };
   },
   apply: ({ body }) => ({ ...properties(asked("apply", body)), ...moment({ measured: true, histogram: true, twin: true }) }),
-  replay: ({ changes }) => asked("replay", changes),
   changes: () => asked("changes"),
   scene: () => asked("scene_text"),
   hash: () => asked("hash"),

@@ -195,6 +195,15 @@ await test("bits", async () => {
   await ask("carom.runUntil(6)");
   check("a link gives the same run to the last bit", (await ask("carom.stateHash()")) === hash);
   check("and all of its changes", (await ask("carom.changes()")) === changes);
+  // In the page that plays: a link whose first change is at time 0.
+  await ask(`carom.scene("gas", { n: 20000 }).then(() => carom.change("scale_velocities = 1.5"))`);
+  const early = await ask("carom.link()");
+  await clear();
+  await ask(`carom.scene("gas", { n: 20000 }).then(() => { carom.play(true); location.hash = ${JSON.stringify(early.slice(early.indexOf("#")))}; })`);
+  await pause(1500);
+  check("a link that is pasted while the page plays keeps its changes", (await ask("carom.run.numbers[22]")) === 1 && !/too late/.test(await notice()), await notice());
+  await browser.open(`${address}?play=0${link.slice(link.indexOf("#"))}`);
+  await ask("carom.runUntil(6)");
   // Steps back lead to the same bits.
   const there = await ask("carom.state().then((state) => state.pairs)");
   for (let k = 0; k < 3; ++k) await browser.key(",");
