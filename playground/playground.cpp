@@ -318,9 +318,9 @@ class Session {
     run_.run_until(change.time);
     const auto* scale = std::get_if<ScaleVelocities>(&change.what);
     const bool reverses = scale != nullptr && scale->factor == -1.0;
-    if (!pending_.empty()) pending_.clear();  // somebody does otherwise than the list
     keep_moment();
     run_.apply(change);
+    pending_.clear();  // somebody does otherwise than the list
     measured_.begin(run_, step_);
     if (reverses)
       return_.reverse(run_);
