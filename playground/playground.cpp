@@ -244,9 +244,7 @@ class Session {
     const Disks& disks = run_.simulation().disks();
     State state;
     run_.state(state);
-    double fastest = 0.0;
-    for (Eigen::Index i = 0; i < state.velocities.cols(); ++i) fastest += state.velocities.col(i).squaredNorm();
-    const double speed = std::sqrt(fastest / std::max<double>(1.0, static_cast<double>(disks.count())));
+    const double speed = usual_speed(state);
     const double length = scene.box.lengths().minCoeff();
     const double fall = scene.effects.acceleration().norm();
     crossing_ = length / std::max({speed, std::sqrt(fall * length), 1e-300});
@@ -254,7 +252,7 @@ class Session {
       if (wall.temperature)
         crossing_ = std::min(crossing_, length / std::sqrt(2.0 * *wall.temperature / std::max(1e-300, largest(disks.mass))));
     if (!std::isfinite(crossing_) || crossing_ > 1e100) crossing_ = 1.0;
-    grid_ = std::exp2(std::floor(std::log2(crossing_ * 1e-6)));
+    grid_ = grid_of(crossing_);
     const double spacing = std::sqrt(scene.box.area() / std::max<double>(1.0, static_cast<double>(disks.count())));
     step_ = nice(std::clamp(0.5 * spacing / length, 2e-3, 0.1) * crossing_);
     begin_measuring();
@@ -262,6 +260,12 @@ class Session {
   }
 
   [[nodiscard]] double nice(double time) const { return std::ceil(time / grid_) * grid_; }
+  /// The time of a change that is made now: the next of the grid, or of a finer one where disks have become faster.
+  [[nodiscard]] double time_of_change() {
+    run_.state(state_);
+    const double grid = std::min(grid_, grid_of(run_.simulation().scene().box.lengths().minCoeff() / usual_speed(state_)));
+    return std::ceil(run_.time() / grid) * grid;
+  }
   LiveRun& run() { return run_; }
   [[nodiscard]] double crossing() const { return crossing_; }
   [[nodiscard]] const Measured& measured() const { return measured_; }
@@ -315,7 +319,9 @@ class Session {
   }
 
   void apply(Change change) {
-    run_.run_until(change.time);
+    constexpr std::uint64_t most_events = 1'000'000;
+    if (run_.run_until(change.time, most_events) == StopReason::events && run_.time() < change.time)
+      throw std::runtime_error("the disks have become too fast to be changed; begin again");
     const auto* scale = std::get_if<ScaleVelocities>(&change.what);
     const bool reverses = scale != nullptr && scale->factor == -1.0;
     keep_moment();
@@ -398,6 +404,12 @@ class Session {
   [[nodiscard]] std::string way_back() const { return return_.json(); }
 
  private:
+  /// Root mean square.
+  static double usual_speed(const State& state) {
+    return std::sqrt(state.velocities.squaredNorm() / std::max<double>(1.0, static_cast<double>(state.velocities.cols())));
+  }
+  /// A power of two, so that times have few digits: at most a millionth of the time in which a disk crosses the box.
+  static double grid_of(double crossing) { return std::exp2(std::floor(std::log2(crossing * 1e-6))); }
   static double largest(const std::vector<double>& numbers) {
     return numbers.empty() ? 1.0 : *std::max_element(numbers.begin(), numbers.end());
   }
@@ -616,7 +628,7 @@ EMSCRIPTEN_KEEPALIVE void carom_keep_moment() {
 EMSCRIPTEN_KEEPALIVE const char* carom_apply(const char* body) {
   return answered([&] {
     Session& now = here();
-    const std::string text = fmt::format("[[changes]]\ntime = {}\n{}", now.nice(now.run().time()), body);
+    const std::string text = fmt::format("[[changes]]\ntime = {}\n{}", now.time_of_change(), body);
     now.apply(parse_changes(text, "change").front());
     return description(now);
   });

@@ -190,6 +190,7 @@ function connectKeyboard() {
     if (target.matches("input[type=range]") && event.key === "Home") return;
     const work = keys[event.key] ?? keys[event.key.toLowerCase()];
     if (!work || !run.description) return;
+    if (event.repeat && [reverse, keys.h, keys.c].includes(work)) return;  // a key that is held would make one change after the other
     event.preventDefault();  // Space plays whatever button has the focus
     work();
   });

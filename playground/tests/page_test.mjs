@@ -292,11 +292,22 @@ await test("keys", async () => {
   await browser.key("h");
   await pause(200);
   check("hotter is faster", Math.abs(Math.abs(await ask("carom.run.vx[0]")) - 1.1) < 1e-9, await ask("carom.run.vx[0]"));
+  await ask('document.body.dispatchEvent(new KeyboardEvent("keydown", { key: "h", repeat: true, bubbles: true }))');
+  await pause(200);
+  check("a key that is held makes one change", (await ask("carom.run.numbers[22]")) === 2, await ask("carom.run.numbers[22]"));
   const shown = () => ask('document.querySelector("[data-number=hash]").textContent');
   check("the hash is that of the faster disks", (await shown()) === (await ask("carom.stateHash()")), await shown());
   await browser.key("Home");
   await pause(300);
   check("and after beginning anew that of the start", (await time()) === 0 && (await shown()) === (await ask("carom.stateHash()")), await shown());
+});
+
+await test("fast disks", async () => {
+  await ask('carom.scene("gas", { n: 300 }).then(() => carom.runUntil(0.1)).then(() => carom.change("scale_velocities = 1e9"))');
+  await browser.key(".");
+  await pause(200);
+  const change = 'carom.change("scale_velocities = 1e-9").then(() => "changed")';
+  check("disks that have become fast can be changed", (await ask(`Promise.race([${change}, new Promise((resolve) => setTimeout(resolve, 5000, "waits"))])`)) === "changed");
 });
 
 await test("twin", async () => {
