@@ -74,12 +74,19 @@ function fillLiveSettings() {
     }
     const setting = liveSettings[name];
     if (setting.choices) {
-      const list = addChoice(place, t(`setting.${name}`), setting.choices.map((choice) => [choice, t(`${name}.${choice}`)]), setting.value(run.description), (choice) => changeRun(setting.change(choice, run.description)));
+      const list = addChoice(place, t(`setting.${name}`), setting.choices.map((choice) => [choice, t(`${name}.${choice}`)]), setting.value(run.description), async (choice) => (await changeRun(setting.change(choice, run.description))) || showLiveSettings());
       shownSettings.push({ setting, set: (v) => (list.value = v) });
       continue;
     }
-    const change = lazily((v) => changeRun(setting.change(v, run.description)));
-    const made = slider(place, { ...setting, label: t(`setting.${name}`), zero: setting.zero ? t(setting.zero) : null, value: setting.value(run.description), onInput: change });
+    // Where the engine refuses, the slider goes back to what is so; at once, or when it is let go.
+    let isRefused = false;
+    const change = lazily(async (v) => {
+      isRefused = false;
+      isRefused = !(await changeRun(setting.change(v, run.description)));
+      if (isRefused) showLiveSettings();
+    });
+    const letGo = () => setTimeout(() => isRefused && showLiveSettings());
+    const made = slider(place, { ...setting, label: t(`setting.${name}`), zero: setting.zero ? t(setting.zero) : null, value: setting.value(run.description), onInput: change, onChange: letGo });
     made.input.dataset.setting = name;
     shownSettings.push({ setting, set: made.set });
   }
@@ -137,6 +144,7 @@ function fillStartSettings() {
         else await loadScene(run.scene, start);
       } catch (error) {
         notify(error.message);
+        fillStartSettings();
       }
     };
     slider(place, { label: t(`start.${key}`), unit: startUnits[key] ?? "", least, most, step, logarithmic, value, onChange: begin }).input.dataset.start = key;

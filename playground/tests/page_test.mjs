@@ -113,6 +113,10 @@ await test("start settings", async () => {
   await ask(`(() => { const input = document.querySelector('[data-start="eta"]'); input.value = 0.1; input.dispatchEvent(new Event("change")); })()`);
   await pause(300);
   check("the packing fraction is that of the slider", Math.abs((await ask("carom.run.description.packing")) - 0.1) < 1e-9);
+  await ask(`(() => { const input = document.querySelector('[data-start="eta"]'); input.max = 7; input.value = 7; input.dispatchEvent(new Event("change")); })()`);
+  await pause(300);
+  check("a slider of the start that is refused goes back", (await notice()) !== "" && (await ask(`document.querySelector('[data-start="eta"]').value`)) === "0.1", await notice());
+  await clear();
 });
 
 await test("pi", async () => {
@@ -128,6 +132,10 @@ await test("walls", async () => {
   await slide(3);
   await pause(200);
   check("a slider heats the walls", (await ask("carom.run.description.walls.every((wall) => wall.temperature === 3)")));
+  await ask(`(() => { const input = document.querySelector('[data-setting="radius"]'); input.max = 50; input.value = 50; input.dispatchEvent(new Event("input")); })()`);
+  await pause(200);
+  check("a slider that is refused goes back", (await notice()) !== "" && Math.abs((await ask(`document.querySelector('[data-setting="radius"]').value`)) - (await ask("carom.run.description.species[0].radius"))) < 0.01, await notice());
+  await clear();
   await slide(0);
   await pause(200);
   check("and insulates them again", (await ask("carom.run.description.walls.every((wall) => wall.temperature === null)")) && (await notice()) === "", await notice());
