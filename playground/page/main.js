@@ -230,6 +230,7 @@ window.carom = {
   /// Makes a change now, written as in a file of changes: carom.change("remove_disk = 3").
   async change(body) {
     take(await run.engine.ask("apply", { body }));
+    followOn(body);
     return run.description;
   },
   /// Resolves with the hash of the state of now, which carom run prints at the same time.

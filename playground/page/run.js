@@ -66,8 +66,20 @@ async function act(name, values) {
   }
 }
 
-/// Makes a change now: the body of a [[changes]] table.
-const changeRun = (body) => act("apply", { body });
+/// Makes a change now: the body of a [[changes]] table. Returns whether it was done.
+async function changeRun(body) {
+  const isDone = await act("apply", { body });
+  if (isDone) followOn(body);
+  return isDone;
+}
+
+/// Follows the same disk after a change that takes one out: those after it have moved up by one.
+function followOn(body) {
+  const removed = /^\s*remove_disk\s*=\s*(\d+)/.exec(body);
+  if (!removed) return;
+  const disk = Number(removed[1]);
+  if (settings.followed >= disk) follow(settings.followed === disk ? -1 : settings.followed - 1);
+}
 
 /// Loads a scene from its text. Keeps the run that is there where it is refused.
 async function loadText(scene, toml, { overrides = [], changes = "", start = {} } = {}) {

@@ -276,8 +276,13 @@ await test("tools", async () => {
   await drag([5, 2]);
   check("a disk is taken out", (await ask("carom.run.description.disks")) === 2);
   await tool("hand");
+  await drag([8, 5]);
+  check("a disk is followed", (await ask("carom.settings.followed")) === 1);
+  await tool("take");
   await drag([2, 5]);
-  check("a disk is followed", (await ask("carom.settings.followed")) === 0);
+  check("and is the same where one before it is taken out", (await ask("carom.settings.followed")) === 0 && (await ask("carom.run.x[0]")) > 5);
+  await drag([8, 5]);
+  check("and nobody where it is taken out itself", (await ask("carom.settings.followed")) === -1);
 });
 
 await test("keys", async () => {
