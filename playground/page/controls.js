@@ -189,7 +189,11 @@ onLoad.push(() => {
   showRate();
   showLiveSettings();
 });
-onDescription.push(() => run.scene && showLiveSettings());
+onDescription.push(() => {
+  if (!run.scene) return;
+  showLiveSettings();
+  showLegend();
+});
 
 function sceneTitle(scene) {
   return texts.en[`scene.${scene.id}`] ? t(`scene.${scene.id}`) : scene.title;

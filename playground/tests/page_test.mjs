@@ -315,6 +315,13 @@ await test("keys", async () => {
   check("and after beginning anew that of the start", (await time()) === 0 && (await shown()) === (await ask("carom.stateHash()")), await shown());
 });
 
+await test("legend", async () => {
+  await ask('carom.scene("brownian").then(() => carom.change("remove_disk = 5"))');
+  const species = await ask("carom.run.description.species.map((one) => one.count)");
+  const legend = await ask("[...document.querySelectorAll('#legend .kind')].map((one) => one.textContent)");
+  check("the legend counts the disks of now", legend.length > 1 && species.every((count, k) => legend[k].includes(count)), [species, legend]);
+});
+
 await test("fast disks", async () => {
   await ask('carom.scene("gas", { n: 300 }).then(() => carom.runUntil(0.1)).then(() => carom.change("scale_velocities = 1e9"))');
   await browser.key(".");
