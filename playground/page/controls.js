@@ -230,7 +230,7 @@ function fillLists() {
   fillList("twinMethod", ["naive-edge", "guarded", "soft"].map((key) => [key, t(`twin.${key}`)]), "guarded");
 }
 
-// The speed of time: steps of 1, 2, 5 per decade round the usual rate.
+// The speed of time: twenty steps of the slider per decade round the usual rate; keys go by 1, 2, 5.
 const rateOf = (position) => usualRate() * 10 ** (position / 20);
 function showRate() {
   byId("rate").value = Math.round(20 * Math.log10(run.rate / usualRate()));
@@ -238,7 +238,7 @@ function showRate() {
   byId("rate").setAttribute("aria-valuetext", byId("rateText").textContent);
 }
 function setRate(rate) {
-  const round = Number(rate.toPrecision(1));
+  const round = Number(rate.toPrecision(2));  // moves the slider by less than half a step
   run.rate = Math.min(Math.max(round, usualRate() * 1e-3), usualRate() * 1e3);
   showRate();
 }

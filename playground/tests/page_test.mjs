@@ -289,6 +289,11 @@ await test("keys", async () => {
   await ask(`carom.load(${JSON.stringify(twoDisks)})`);
   await browser.key(" ");
   check("Space plays", await ask("carom.run.isPlaying"));
+  const rate = () => ask("Number(document.getElementById('rate').value)");
+  const first = await rate();
+  await ask("document.getElementById('rate').focus()");
+  for (let k = 0; k < 3; ++k) await browser.key("ArrowRight");
+  check("an arrow key moves the speed by a step", (await rate()) === first + 3, [first, await rate()]);
   await ask("document.getElementById('arrows').focus()");
   await browser.key(" ");
   check("Space pauses whatever has the focus", !(await ask("carom.run.isPlaying")) && !(await ask("carom.settings.arrows")));
