@@ -394,6 +394,8 @@ class Session {
     while (twin_->time() < run_.time() - twin_before_ && emscripten_get_now() < end)
       twin_->run_until(std::min(run_.time() - twin_before_, twin_->time() + 20.0 * twin_->time_step().value_or(1.0)));
   }
+  /// The time that the twin has come to, on the clock of the run.
+  [[nodiscard]] double time_of_twin() const { return twin_before_ + twin_->time(); }
   Simulation* twin() { return twin_ ? &*twin_ : nullptr; }
   double& deepest() { return deepest_; }
 
@@ -747,8 +749,10 @@ EMSCRIPTEN_KEEPALIVE const char* carom_twin_numbers() {
     const State state = twin->state();
     const playground::Overlaps found = playground::overlaps_of(twin->scene().box, twin->disks(), state, overlapping);
     here().deepest() = std::max(here().deepest(), found.deepest);
-    return fmt::format("{{\"overlapping\":{},\"deepest\":{},\"collisions\":{},\"energy\":{}}}", found.pairs,
-                       json_number(here().deepest()), twin->counts().pair, json_number(kinetic_energy(twin->disks(), state)));
+    const Energies energies = energies_of(twin->scene().box, twin->scene().effects, twin->disks(), state);
+    return fmt::format("{{\"time\":{},\"overlapping\":{},\"deepest\":{},\"collisions\":{},\"energy\":{}}}",
+                       json_number(here().time_of_twin()), found.pairs, json_number(here().deepest()), twin->counts().pair,
+                       json_number(energies.total()));
   });
 }
 EMSCRIPTEN_KEEPALIVE const std::uint8_t* carom_twin_overlapping() { return overlapping.data(); }

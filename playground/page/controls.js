@@ -227,7 +227,7 @@ function fillLists() {
   fillList("theme", ["auto", "light", "dark"].map((key) => [key, t(`theme.${key}`)]), settings.theme);
   fillList("language", languages.map((key) => [key, texts[key]["language"]]), language);
   fillList("historyKind", Object.keys(histories).map((key) => [key, t(`history.${key}`)]), settings.history);
-  fillList("twinMethod", ["naive-edge", "guarded", "soft"].map((key) => [key, t(`twin.${key}`)]), "guarded");
+  fillList("twinMethod", ["naive-edge", "guarded", "soft"].map((key) => [key, t(`twin.${key}`)]), byId("twinMethod").value || "guarded");
 }
 
 // The speed of time: twenty steps of the slider per decade round the usual rate; keys go by 1, 2, 5.
@@ -298,7 +298,7 @@ async function startTwin() {
   }
   layOut(run.twin !== null);
 }
-/// The twin begins anew from where the run is when disks or effects have changed.
+/// The twin begins anew from where the run is when disks or effects have changed; stepBack() does so too.
 let twinOf = null;
 onDescription.push((d) => {
   const key = `${d.changes}`;

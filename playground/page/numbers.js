@@ -67,7 +67,9 @@ function showNumbers() {
   const twin = run.twinNumbers;
   byId("twinTable").hidden = !twin;
   if (twin) {
-    const energy = n[at.kinetic];
+    const energy = n[at.kinetic] + n[at.spin] + n[at.potential] + n[at.pistons];
+    put("exactTime", short(n[at.time], 5));
+    put("twinTime", short(twin.time, 5));  // behind where its steps take longer than they get
     put("twinOverlaps", `${twin.overlapping}`);
     put("twinDeepest", `${short(100 * twin.deepest, 2)} %`);
     put("twinCollisions", grouped(twin.collisions));

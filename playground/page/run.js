@@ -187,6 +187,7 @@ async function stepBack() {
     if (!told.done) notify(t("noWayBack"));
     take(told);
     run.lastEvent = null;
+    if (run.twin) await startTwin();
     cutHistory(run.numbers[at.time]);
   } catch (error) {
     notify(error.message);

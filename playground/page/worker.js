@@ -89,13 +89,18 @@ const does = {
   async until({ time }) {
     for (;;) {
       const { status, why } = advanced(time, 200);
+      engine._carom_advance_twin(200);
       if (status === 0) break;
       if (status === 2) throw new Error(`the run cannot go on: ${why}`);
       await new Promise((resolve) => setTimeout(resolve));
     }
     return { ...properties(asked("describe")), ...moment({ measured: true, histogram: true, twin: true }) };
   },
-  step: () => ({ ...asked("step"), ...properties(asked("describe")), ...moment({ measured: true, histogram: true, twin: true }) }),
+  step() {
+    const told = asked("step");
+    engine._carom_advance_twin(200);
+    return { ...told, ...properties(asked("describe")), ...moment({ measured: true, histogram: true, twin: true }) };
+  },
   back({ events }) {
     const done = engine._carom_back(events);
     return { done, ...properties(asked("describe")), ...moment({ measured: true, histogram: true, twin: true }) };

@@ -340,9 +340,26 @@ await test("twin", async () => {
   await pause(isLong ? 5000 : 1500);
   check("the twin runs beside", await ask("carom.run.twin !== null && carom.run.twin.length === 800"));
   check("and its numbers are there", (await ask("carom.run.twinNumbers.collisions")) > 0);
+  await ask('carom.play(false)');
+  const method = "document.getElementById('twinMethod')";
+  await ask(`(() => { ${method}.value = "naive-edge"; ${method}.dispatchEvent(new Event("change")); })()`);
+  await pause(200);
+  for (let k = 0; k < 5; ++k) {
+    await browser.key(".");
+    await pause(100);
+  }
+  check("it goes along by steps", Math.abs((await ask("carom.run.twinNumbers.time")) - (await time())) < 1e-9, [await ask("carom.run.twinNumbers.time"), await time()]);
+  for (const language of ["de", "en"]) await ask(`(() => { const list = document.getElementById("language"); list.value = "${language}"; list.dispatchEvent(new Event("change")); })()`);
+  check("another language keeps its method", (await ask(`${method}.value`)) === "naive-edge");
   await ask('document.getElementById("twin").click()');
   await pause(300);
   check("it can be switched off", await ask("carom.run.twin === null"));
+  await ask('carom.scene("box", { n: 20, eta: 0.01 }).then(() => carom.set("gravity.acceleration", [0, -0.1]))');
+  await ask('document.getElementById("twin").click()');
+  await pause(200);
+  await ask("carom.runUntil(3)");
+  await pause(200);
+  check("under gravity its energy is compared with the sum", Math.abs(parseFloat(await ask("document.querySelector('[data-number=twinEnergy]').textContent"))) < 5, await ask("[document.querySelector('[data-number=twinEnergy]').textContent, carom.run.twinNumbers]"));
   await ask('carom.scene("shear").then(() => document.getElementById("twin").click())');
   await pause(300);
   check("where fixed steps cannot, a sentence says so", /fixed-step methods know/.test(await notice()), await notice());
