@@ -161,6 +161,8 @@ function ownStart() {
   return list;
 }
 
+const mostDisks = 100_000;  // as in playground.cpp
+
 /// Loads a scene of the list with the numbers of its start, those not given being the usual ones.
 async function loadScene(scene, start = {}) {
   if (scene.toml) return loadText(scene, scene.toml);
@@ -168,6 +170,7 @@ async function loadScene(scene, start = {}) {
   for (const { key, usual } of scene.start) all[key] = usual;
   for (const [key, value] of Object.entries(start)) if (Number.isFinite(value)) all[key] = value;
   if ("n" in all) all.n = Math.max(1, Math.round(all.n));
+  if (all.n > mostDisks) throw new Error(t("tooManyDisks", { count: grouped(all.n), most: grouped(mostDisks) }));
   const toml = scene.make(all);
   await loadText(scene, toml, { start: all });
 }

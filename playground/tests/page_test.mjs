@@ -239,6 +239,7 @@ await test("refusals", async () => {
   check("a wrong scene is refused with a sentence", /own:1:1/.test(await refused('carom.load("box = 3")')) || /box/.test(await refused('carom.load("box = 3")')), await refused('carom.load("box = 3")'));
   check("the scene before goes on", (await ask("carom.run.description.disks")) === 2);
   check("too many disks are refused", /more than this page holds/.test(await refused(`carom.load(${JSON.stringify(twoDisks.replace(/positions.*\nvelocities.*/, "count = 200000\npositions = \"square\"\nvelocities = \"rest\"").replace("radius = 0.5", "radius = 0.001"))})`)));
+  check("before their places are computed", /more than this page holds/.test(await refused('Promise.race([carom.scene("mixing", { n: 1e7 }), new Promise((resolve) => setTimeout(resolve, 5000))])')));
   check("a wall through a disk is refused", /obstacle/.test(await refused('carom.change("add_obstacle = { segment = { from = [2, 0], to = [2, 10] } }")')));
   check("a disk upon a disk is refused", /overlap/.test(await refused('carom.change("add_disk = { position = [2, 5] }")')));
   check("nonsense is refused", (await refused('carom.change("hello")')) !== "");
