@@ -178,7 +178,7 @@ const keys = {
   "+": () => zoom(1.25), "=": () => zoom(1.25), "-": () => zoom(0.8), 0: () => (fitView(), (run.isStale = true)), f: toggleFull, v: () => byId("arrows").click(), s: () => byId("share").click(),
   "?": () => byId("help").click(), o: () => !byId("door").hidden && turnDoor(), 1: () => chooseTool("hand"), 2: () => chooseTool("throw"), 3: () => chooseTool("take"), 4: () => chooseTool("drag"),
   5: () => chooseTool("wall"), 6: () => chooseTool("erase"), d: () => ((byId("theme").value = theme.isDark ? "light" : "dark"), byId("theme").dispatchEvent(new Event("change"))),
-  Escape: () => follow(-1), "[": () => disks > 0 && follow((settings.followed + disks - 1) % disks), "]": () => disks > 0 && follow((settings.followed + 1) % disks),
+  Escape: () => follow(-1), "[": () => disks > 0 && follow((Math.max(settings.followed, 0) + disks - 1) % disks), "]": () => disks > 0 && follow((settings.followed + 1) % disks),
 };
 
 function connectKeyboard() {

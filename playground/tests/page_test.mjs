@@ -314,6 +314,10 @@ await test("keys", async () => {
   await ask('document.body.dispatchEvent(new KeyboardEvent("keydown", { key: "h", repeat: true, bubbles: true }))');
   await pause(200);
   check("a key that is held makes one change", (await ask("carom.run.numbers[22]")) === 2, await ask("carom.run.numbers[22]"));
+  for (const [key, disk] of [["[", 1], ["[", 0], ["Escape", -1], ["]", 0]]) {
+    await browser.key(key);
+    check(`${key} follows disk ${disk}`, (await ask("carom.settings.followed")) === disk, await ask("carom.settings.followed"));
+  }
   const shown = () => ask('document.querySelector("[data-number=hash]").textContent');
   check("the hash is that of the faster disks", (await shown()) === (await ask("carom.stateHash()")), await shown());
   await browser.key("Home");
