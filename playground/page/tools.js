@@ -133,6 +133,10 @@ const tools = {
       else await changeRun(`move_disk = { disk = ${disk}, position = ${pairText(place())}, velocity = ${pairText([run.vx[disk], run.vy[disk]])} }`);
       if (pointer.wasPlaying) play(true);
     },
+    cancel() {
+      if (pointer.disk >= 0 && pointer.wasPlaying) play(true);
+      pointer.disk = -1;
+    },
   },
   wall: {
     cursor: "crosshair",
@@ -191,6 +195,7 @@ function connectPointer() {
     pointer.others.set(event.pointerId, placeOf(event));
     if (pointer.others.size === 2) {
       pinch = [...pointer.others.values()];
+      if (pointer.isDown) tools[settings.tool].cancel?.();
       pointer.isDown = false;
       return;
     }
@@ -220,6 +225,7 @@ function connectPointer() {
     if (!pointer.isDown) return;
     pointer.isDown = false;
     if (event.type === "pointerup") tools[settings.tool].up?.();
+    else tools[settings.tool].cancel?.();
     run.isStale = true;
   };
   overlay.addEventListener("pointerup", end);

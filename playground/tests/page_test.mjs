@@ -276,6 +276,19 @@ await test("tools", async () => {
   await tool("take");
   await drag([5, 2]);
   check("a disk is taken out", (await ask("carom.run.description.disks")) === 2);
+  await ask(`carom.load(${JSON.stringify(twoDisks)}).then(() => carom.play(true))`);
+  await tool("drag");
+  const touch = async (type, ...places) => {
+    await browser.send("Input.dispatchTouchEvent", { type, touchPoints: places.map(([x, y], id) => ({ x, y, id })) });
+    await pause(100);
+  };
+  const finger = await pixelOf(...(await ask("[carom.run.x[0], carom.run.y[0]]")));
+  await touch("touchStart", finger);
+  check("a disk that is held pauses the run", !(await ask("carom.run.isPlaying")));
+  await touch("touchStart", finger, [finger[0] + 100, finger[1]]);
+  check("and a second finger lets it go on", await ask("carom.run.isPlaying"));
+  await touch("touchEnd");
+  await ask(`carom.load(${JSON.stringify(twoDisks)})`);
   await tool("hand");
   await drag([8, 5]);
   check("a disk is followed", (await ask("carom.settings.followed")) === 1);
