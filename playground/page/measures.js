@@ -98,11 +98,23 @@ function equilibriumSpeeds(v, kT) {
 
 let classes = [];
 let classesOf = null;
+/// Pairs of a mass and the number of its disks. Where there are many masses, disks are put into classes of equal numbers, each with its
+/// middle mass.
 function massClasses() {
   if (classesOf === run.mass) return classes;
-  const counts = new Map();
+  const most = 64;
+  let counts = new Map();
   for (const m of run.mass) counts.set(m, (counts.get(m) ?? 0) + 1);
-  classes = [...counts].slice(0, 64);
+  if (counts.size > most) {
+    const sorted = run.mass.slice().sort();
+    counts = new Map();
+    for (let k = 0; k < most; ++k) {
+      const [from, to] = [k, k + 1].map((end) => Math.floor((end * disks) / most));
+      const middle = sorted[Math.floor((from + to) / 2)];
+      counts.set(middle, (counts.get(middle) ?? 0) + to - from);
+    }
+  }
+  classes = [...counts];
   classesOf = run.mass;
   return classes;
 }

@@ -85,7 +85,7 @@ function drawSpeeds() {
   if (!(plot.width > 0)) return;
   const { context } = plot;
   const kT = run.numbers[at.kT];
-  const range = Math.max(3 * run.speedScale, ...[kT > 0 && run.mass.length > 0 ? 2.2 * Math.sqrt((2 * kT) / Math.min(...massClasses().map(([m]) => m))) : 0]);
+  const range = Math.max(3 * run.speedScale, ...[kT > 0 && run.mass.length > 0 ? 2.2 * Math.sqrt((2 * kT) / run.mass.reduce((least, m) => Math.min(least, m))) : 0]);
   const bins = 30;
   const counts = new Float64Array(bins);
   for (let i = 0; i < disks; ++i) {

@@ -119,6 +119,18 @@ await test("start settings", async () => {
   await clear();
 });
 
+await test("law of speeds", async () => {
+  // measures.js itself, with a run of 300 disks whose masses all differ: none of them is left out of the law.
+  const source = readFileSync(new URL("../page/measures.js", import.meta.url), "utf8");
+  const mass = Float64Array.from({ length: 300 }, (_, i) => 0.2 + 0.01 * i);
+  const description = { thermal: [false, false], thermostatRate: 0, walls: [] };
+  const { massClasses, equilibriumSpeeds } = new Function("run", "disks", `${source}\nreturn { massClasses, equilibriumSpeeds };`)({ mass, description }, mass.length);
+  check("disks of many masses are in some classes", massClasses().length <= 64, massClasses().length);
+  let sum = 0;
+  for (let k = 0; k < 10000; ++k) sum += equilibriumSpeeds((k + 0.5) * 1e-3, 1) * 1e-3;
+  check("the law of speeds has all disks", Math.abs(sum - 300) < 0.01, sum);
+});
+
 await test("pi", async () => {
   await ask('carom.scene("galperin", { digits: 2 })');
   await ask("carom.runUntil(27)");  // the last one comes late, and the heavy disk meets the far wall after it
