@@ -121,10 +121,10 @@ function massClasses() {
 
 /// The mean free path by Enskog's theory, 1 / (2 sqrt(2) n sigma g), with g from the equation of state; null for other than equal disks.
 function enskogPath() {
-  const { theoryZ, packing, species, upper, lower } = run.description;
+  const { theoryZ, packing, species } = run.description;
   if (theoryZ === null || species.length !== 1 || !species[0].uniform || !(packing > 0)) return null;
   const contact = (theoryZ - 1) / (2 * packing);
-  const density = disks / ((upper[0] - lower[0]) * (upper[1] - lower[1]));
+  const density = disks / areaAtStart();
   return 1 / (2 * Math.SQRT2 * density * 2 * species[0].radius * contact);
 }
 

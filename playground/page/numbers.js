@@ -89,8 +89,10 @@ function showNumbers() {
   if (run.isLate && run.isPlaying) byId("late").textContent = t("late", { count: grouped(run.pairsPerSecond) });
 }
 
-const area = () => (run.numbers[at.right] - run.numbers[at.left]) * (run.numbers[at.top] - run.numbers[at.bottom]);
-const areaAtStart = () => box.lengths[0] * box.lengths[1];
+/// The area of a box of this width and height; one that is a circle fills pi / 4 of them.
+const areaOf = (width, height) => (box.isCircle ? Math.PI / 4 : 1) * width * height;
+const area = () => areaOf(run.numbers[at.right] - run.numbers[at.left], run.numbers[at.top] - run.numbers[at.bottom]);
+const areaAtStart = () => areaOf(...box.lengths);
 
 let hashTimer = 0;
 /// Shows the hash of the state of now, which is that of `carom run` at this time.

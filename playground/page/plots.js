@@ -174,9 +174,9 @@ function drawHistory() {
 
 /// P of the equation of state and of an ideal gas, where the scene has them.
 function idealPressures() {
-  const { theoryZ, upper, lower } = run.description;
+  const { theoryZ } = run.description;
   if (theoryZ === null) return null;
-  const ideal = (disks * run.numbers[at.kT]) / ((upper[0] - lower[0]) * (upper[1] - lower[1]));
+  const ideal = (disks * run.numbers[at.kT]) / area();
   return [theoryZ * ideal, ideal];
 }
 

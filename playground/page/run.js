@@ -2,7 +2,7 @@
 "use strict";
 
 let disks = 0;                        // their number, for hexatic.js
-let box = { lower: [0, 0], upper: [1, 1], periodic: [false, false], lengths: [1, 1] };  // that of the start
+let box = { lower: [0, 0], upper: [1, 1], periodic: [false, false], isCircle: false, lengths: [1, 1] };  // that of the start
 
 const run = {
   engine: null,

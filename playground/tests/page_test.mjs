@@ -131,6 +131,22 @@ await test("law of speeds", async () => {
   check("the law of speeds has all disks", Math.abs(sum - 300) < 0.01, sum);
 });
 
+await test("a round box", async () => {
+  // By the equation of state, and by Enskog's theory, in a circle without gravity.
+  await ask('carom.scene("drum", { n: 100 })');
+  await ask('carom.set("gravity.acceleration", [0, 0])');
+  await ask("carom.runUntil(1)");
+  await pause(400);
+  const numberIn = async (name) => Number((await ask(`document.querySelector('[data-number=${name}]').textContent`)).match(/[\d.]+(?=\D*$)/)?.[0]);
+  const { theoryZ, upper, lower, packing } = await ask("carom.run.description");
+  const area = (Math.PI * (upper[0] - lower[0]) ** 2) / 4;
+  const pressure = (theoryZ * 100 * (await ask("carom.run.numbers[15]"))) / area;
+  const [shown] = (await ask("document.querySelector('[data-number=theory]').textContent")).split(" ");
+  check("the pressure of the theory is that of a circle", Math.abs(Number(shown) / pressure - 1) < 1e-3, [shown, pressure]);
+  const path = area / (2 * Math.SQRT2 * 100 * ((theoryZ - 1) / (2 * packing)));
+  check("and so is the mean free path", Math.abs((await numberIn("path")) / path - 1) < 0.01, [await ask("document.querySelector('[data-number=path]').textContent"), path]);
+});
+
 await test("pi", async () => {
   await ask('carom.scene("galperin", { digits: 2 })');
   await ask("carom.runUntil(27)");  // the last one comes late, and the heavy disk meets the far wall after it
