@@ -27,10 +27,15 @@ const stepEnergy = (k) => ({
   change: (v) => setKeys(`stepped_potential.steps.${k}.energy=${v}`),
 });
 
+/// What a change of restitution or drag sets besides: the time below which collisions are elastic is that of the scene's text, 1e-3 where
+/// that has none, and 0 under drag, with which it cannot be combined.
+const elasticBelow = (drag) =>
+  `collision.elastic_below=${drag > 0 ? "{ time = 0 }" : (run.toml.match(/\belastic_below\s*=\s*(\{[^}]*\})/)?.[1] ?? "{ time = 1e-3 }")}`;
+
 const liveSettings = {
   gravity: { least: 0, most: 2, step: 0.01, unit: "length / time²", value: (d) => -d.gravity[1], change: (v) => setKeys(`gravity.acceleration=[0, ${-v || 0}]`) },
   gravity0: { least: 0, most: 1, step: 0.01, unit: "length / time²", value: (d) => -d.gravity[1], change: (v) => setKeys(`gravity.acceleration=[0, ${-v || 0}]`) },
-  restitution: { least: 0.3, most: 1, step: 0.01, unit: "", value: (d) => d.restitution ?? 1, change: (v) => setKeys(`collision.restitution=${v}`, "collision.elastic_below={ time = 1e-3 }") },
+  restitution: { least: 0.3, most: 1, step: 0.01, unit: "", value: (d) => d.restitution ?? 1, change: (v, d) => setKeys(`collision.restitution=${v}`, elasticBelow(d.drag)) },
   roughness: { least: -1, most: 1, step: 0.05, unit: "", value: (d) => d.roughness ?? -1, change: (v) => setKeys(`collision.roughness=${v}`) },
   rule: { choices: ["specular", "reversal"], value: (d) => d.rule, change: (v) => setKeys(`collision.rule="${v}"`) },
   radius: { least: 0.05, most: 0.8, step: 0.01, unit: "length", value: (d) => d.species[0]?.radius ?? 0.5, change: (v) => setKeys(`disks.0.radius=${v}`) },
@@ -62,7 +67,7 @@ const liveSettings = {
   },
   wellDepth: { least: 0, most: 3, step: 0.05, unit: "energy", value: (d) => d.wellDepth ?? 0, change: (v, d) => setKeys(`square_well={ width = ${d.wellWidth ?? 1.5}, depth = ${v} }`) },
   shear: { least: 0, most: 1, step: 0.01, unit: "1 / time", value: (d) => d.shear ?? 0, change: (v) => setKeys(`shear.rate=${v}`) },
-  drag: { least: 0, most: 1, step: 0.01, unit: "1 / time", value: (d) => d.drag ?? 0, change: (v) => setKeys(`drag.rate=${v}`) },
+  drag: { least: 0, most: 1, step: 0.01, unit: "1 / time", value: (d) => d.drag ?? 0, change: (v) => setKeys(`drag.rate=${v}`, elasticBelow(v)) },
   tumbling: { least: 0, most: 5, step: 0.05, unit: "1 / time", value: (d) => d.tumbling ?? 0, change: (v) => setKeys(`tumbling.rate=${v}`) },
   slide: {
     least: -3, most: 3, step: 0.1, unit: "length / time", value: (d) => d.walls[3].slides ?? 0,
@@ -95,7 +100,11 @@ function settingsOf(description) {
   if (!acrossX && !acrossY && !description.isCircle && description.walls.every((wall) => ["mass", "slides", "vibration", "amplitude"].every((key) => wall[key] === null) && !wall.velocity)) found.push("wallsT");
   const { walls, steps } = description;
   const isBrownian = description.brownian !== null;
-  for (const [name, isThere] of [["thermostat", !isBrownian && description.tumbling === null], ["shear", description.shear !== null], ["drag", true], ["tumbling", description.tumbling !== null],
+  // Drag goes together with collisions, fixed walls and obstacles alone.
+  const canDrag = !isBrownian && ["roughness", "growth", "shear", "tumbling", "wellDepth"].every((key) => description[key] === null) && steps.length === 0 &&
+    !description.thermostatRate && description.gravity.every((g) => g === 0) &&
+    walls.every((wall) => ["temperature", "mass", "vibration", "amplitude"].every((key) => wall[key] === null) && !wall.velocity);
+  for (const [name, isThere] of [["thermostat", !isBrownian && description.tumbling === null], ["shear", description.shear !== null], ["drag", canDrag], ["tumbling", description.tumbling !== null],
     ["brownianT", isBrownian], ["brownianRate", isBrownian], ["growth", description.growth !== null], ["wellDepth", description.wellDepth !== null], ["nonAdditivity", description.delta !== null],
     ["roughness", description.roughness !== null], ["load", walls[3].mass !== null], ["pistonMass", walls[3].mass !== null]])
     if (isThere) found.push(name);

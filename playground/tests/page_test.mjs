@@ -201,6 +201,30 @@ await test("settings of scenes from elsewhere", async () => {
   check("a slider changes what it names alone", bottom.amplitude === 0.25 && bottom.frequency === 2 && bottom.restitution === 0.9 && top.slides === -2 && top.temperature === 2 && left.vibration === 1, [left, bottom, top]);
 });
 
+await test("restitution and drag", async () => {
+  const slide = async (name, value) => {
+    await ask(`(() => { const input = document.querySelector('[data-setting="${name}"]'); input.value = ${value}; input.dispatchEvent(new Event("input")); })()`);
+    await ask("carom.stateHash()");
+  };
+  const found = async () => [await ask("carom.run.description.restitution"), await ask("carom.run.description.drag"), await notice()];
+  for (const load of ['carom.scene("break")', `carom.load(${JSON.stringify(twoDisks)})`]) {
+    await clear();
+    await ask(load);
+    await slide("restitution", 0.5);
+    await slide("drag", 0.2);
+    await slide("restitution", 0.6);
+    check(`${load}: both move one after the other`, (await found()).join() === "0.6,0.2,", await found());
+    await slide("drag", 0);
+    await slide("restitution", 0.7);
+    check(`${load}: and without drag`, (await found()).join() === "0.7,0,", await found());
+  }
+  await ask('carom.scene("hourglass")');
+  await slide("restitution", 0.7);
+  check("a scene keeps its own time below which collisions are elastic", /elastic_below=\{ time = 1e-2 \}/.test(await ask("carom.changes()")), await ask("carom.changes()"));
+  await ask(`carom.load(${JSON.stringify(twoDisks + "[gravity]\nacceleration = [0, -1]\n")})`);
+  check("drag is not offered where it cannot be combined", await ask(`document.querySelector('[data-setting="drag"]') === null`));
+});
+
 await test("bits", async () => {
   await ask(`carom.scene("box", { n: 100 })`);
   const toml = await ask("carom.run.toml");
