@@ -150,7 +150,7 @@ function fillStartSettings() {
     slider(place, { label: t(`start.${key}`), unit: startUnits[key] ?? "", least, most, step, logarithmic, value, onChange: begin }).input.dataset.start = key;
   }
 }
-const startUnits = { kT: "energy", hole: "length", grain: "length", speed: "length / time", aim: "length", rate: "1 / time", post: "length" };
+const startUnits = { kT: "energy", hole: "length", grain: "length", speed: "length / time", aim: "length", growth: "1 / time", post: "length" };
 
 /// What the start of a scene from elsewhere lets one choose: the number of disks where they are not listed, and the seed.
 function ownStart() {

@@ -241,10 +241,10 @@ const scenes = [
     },
   },
   {
-    id: "crystal", group: "dense", start: [count(256, 2000), { key: "rate", least: 0.002, usual: 0.02, most: 0.2, step: 0.002, logarithmic: true }], colour: "psi6",
+    id: "crystal", group: "dense", start: [count(256, 2000), { key: "growth", least: 0.002, usual: 0.02, most: 0.2, step: 0.002, logarithmic: true }], colour: "psi6",
     live: ["growth"],
     make: (p) => titled("Disks that grow") + gasOf({ n: p.n, eta: 0.3, kT: 1 }, "disks", periodic) + collision() +
-      `[growth]\nrate = ${p.rate}\nuntil = { packing_fraction = 0.85 }\n\n` + runOf(p),
+      `[growth]\nrate = ${p.growth}\nuntil = { packing_fraction = 0.85 }\n\n` + runOf(p),
   },
   {
     id: "sizes", group: "dense", start: [count(300, 3000), packing(0.72, 0.76), { key: "spread", least: 0.02, usual: 0.2, most: 0.4, step: 0.01 }],

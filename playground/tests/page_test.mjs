@@ -464,6 +464,8 @@ await test("screens", async () => {
   check("it is dark", (await ask("document.documentElement.dataset.theme")) === "dark");
   check("embedded, it shows the disks alone", await ask("getComputedStyle(document.querySelector('aside')).display === 'none'"));
   check("the address gives the start", (await ask("carom.run.description.disks")) === 80);
+  await browser.open(`${address}?scene=crystal&rate=2&growth=0.1`);
+  check("the growth of the disks and the speed of time have addresses of their own", (await ask("[carom.run.rate, carom.run.description.growth]")).join() === "2,0.1", await ask("[carom.run.rate, carom.run.description.growth]"));
 });
 
 // In a triangular lattice every disk has six neighbours, and ψ6 is 1.
