@@ -82,11 +82,19 @@ function showNumbers() {
   if (back) {
     const last = m.way_back.at(-1);
     put("wayBack", last ? short(last[1], 3) : "–", "length");
-    byId("wayBackWords").textContent = t(last && last[1] > 0.1 * (run.radius[0] ?? 1) ? "wayBackLost" : "wayBackGood");
+    byId("wayBackWords").textContent = t(!isReversible(d) ? "wayBackNone" : last && last[1] > 0.1 * (run.radius[0] ?? 1) ? "wayBackLost" : "wayBackGood");
   }
   put("changes", t("changesSoFar", { count: n[at.changes] }) + (n[at.pending] > 0 ? ` · ${t("changesLeft", { count: n[at.pending] })}` : ""));
   byId("late").hidden = !(run.isLate && run.isPlaying);
   if (run.isLate && run.isPlaying) byId("late").textContent = t("late", { count: grouped(run.pairsPerSecond) });
+}
+
+/// Whether reversed disks go back to where they came from but for rounding: no effect loses energy, draws numbers or goes on in its own
+/// direction of time.
+function isReversible(d) {
+  const isSmoothOrRough = d.roughness === null || Math.abs(d.roughness) === 1;
+  return isSmoothOrRough && (d.restitution ?? 1) === 1 && !d.drag && !d.tumbling && !d.brownian?.rate && !d.thermostatRate && !d.shear && !d.growth &&
+    d.walls.every((wall) => (wall.restitution ?? 1) === 1 && wall.temperature === null && !wall.velocity && !wall.vibration && !wall.amplitude && !wall.slides);
 }
 
 /// The area of a box of this width and height; one that is a circle fills pi / 4 of them.

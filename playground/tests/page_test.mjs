@@ -225,6 +225,18 @@ await test("restitution and drag", async () => {
   check("drag is not offered where it cannot be combined", await ask(`document.querySelector('[data-setting="drag"]') === null`));
 });
 
+await test("the way back", async () => {
+  for (const [id, isReversible] of [["gas", true], ["piston", true], ["granular", false], ["swimmers", false], ["heat", false]]) {
+    await ask(`carom.scene("${id}", { n: 100 })`);
+    await ask("carom.runUntil(1)");
+    await ask('carom.change("scale_velocities = -1")');
+    await ask("carom.runUntil(1.5)");
+    await pause(300);
+    const words = await ask("document.getElementById('wayBackWords').textContent");
+    check(`${id}: chaos is blamed only where the same way leads back`, /same way does not/.test(words) !== isReversible, words);
+  }
+});
+
 await test("bits", async () => {
   await ask(`carom.scene("box", { n: 100 })`);
   const toml = await ask("carom.run.toml");
