@@ -23,7 +23,7 @@ function showNumbers() {
   const m = run.measured;
   put("time", short(n[at.time], 5), "time");
   put("disks", grouped(disks));
-  put("collisions", grouped(n[at.pairs] + (run.scene.counts === "all" ? n[at.walls] : 0)));
+  put("collisions", grouped(collisions()));
   put("rate", run.isPlaying ? t("perSecond", { count: grouped(run.pairsPerSecond) }) : "–");
   put("kT", short(n[at.kT], 4), "energy");
   put("energy", short(n[at.kinetic] + n[at.spin] + n[at.potential] + n[at.pistons], 5), "energy");

@@ -118,6 +118,9 @@ function play(isPlaying = !run.isPlaying) {
   if (!isPlaying) showHash();
 }
 
+/// The collisions so far: those of pairs, and with walls where the scene counts all.
+const collisions = () => run.numbers[at.pairs] + (run.scene.counts === "all" ? run.numbers[at.walls] : 0);
+
 let isAsked = false;  // a frame is on its way
 let isDue = false;    // the screen has asked for another since
 let resting = 0;      // those who wait until none is on its way
@@ -134,12 +137,13 @@ async function goOn(now) {
   askedAt = now;
   const isMeasured = now - measuredAt > 200;
   if (isMeasured) measuredAt = now;
+  const before = collisions();
   try {
     const told = await run.engine.ask("frame", { time: run.rate * seconds, budget: 14, about: { measured: isMeasured, histogram: isMeasured } });
     take(told);
     run.isLate = told.status === 1;
     const share = 0.1;
-    if (seconds > 0) run.pairsPerSecond += share * (told.happened / seconds - run.pairsPerSecond);
+    if (seconds > 0) run.pairsPerSecond += share * ((collisions() - before) / seconds - run.pairsPerSecond);
     if (told.status === 2) {
       play(false);
       notify(t("stopped", { why: t(`stopped.${told.why}`) }));

@@ -69,7 +69,6 @@ const does = {
   /// Advances by simulated time, within a budget of milliseconds.
   frame({ time, budget, about }) {
     const began = performance.now();
-    const before = numberOf(4);
     const changes = numberOf(22);
     const result = advanced(engine.HEAPF64[engine._carom_numbers() / 8] + time, budget);
     result.spent = performance.now() - began;
@@ -79,7 +78,6 @@ const does = {
       lastMoment = began;
     }
     Object.assign(result, moment(about));
-    result.happened = result.numbers[4] - before;
     if (result.numbers[22] !== changes) Object.assign(result, properties(asked("describe")));  // the list has changed something
     const fault = engine.UTF8ToString(engine._carom_fault());
     if (fault) result.fault = fault;

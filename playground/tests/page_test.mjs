@@ -107,6 +107,14 @@ await test("scenes", async () => {
   }
 });
 
+await test("collisions", async () => {
+  const alone = twoDisks.replace("[[2, 5], [8, 5]]", "[[2, 5]]").replace("[[1, 0], [-1, 0]]", "[[1, 0]]").replace("[0, 10]", "[0, 4]");
+  await ask(`carom.load(${JSON.stringify(alone)}).then(() => carom.play(true))`);
+  await pause(2500);
+  const text = (name) => ask(`document.querySelector("[data-number=${name}]").textContent`);
+  check("a disk that meets walls alone has no collisions", (await ask("carom.run.numbers[3]")) > 0 && (await text("collisions")) === "0" && (await text("rate")) === "0 per second", [await text("collisions"), await text("rate")]);
+});
+
 await test("start settings", async () => {
   await ask('carom.scene("gas", { n: 50 })');
   check("a scene begins with the number asked for", (await ask("carom.run.description.disks")) === 50);
