@@ -55,6 +55,8 @@ function showNumbers() {
     const shown = m.walls.map((wall, k) => (d.periodic[k < 2 ? 0 : 1] || (d.isCircle && k > 0) ? null : `${name(k)}${wall.pressure_error > 0 ? withError(wall.pressure, wall.pressure_error) : short(wall.pressure)}`)).filter(Boolean);
     put("walls", shown.join(" · "), "energy / length²");
   }
+  // Paths end at posts too, which are not counted.
+  byId("pathRow").hidden = d.obstacles.some((one) => one.centre);
   const theoryPath = enskogPath();
   put("path", `${short(n[at.path])}${theoryPath ? ` (${t("enskog")} ${short(theoryPath)})` : ""}`, "length");
 

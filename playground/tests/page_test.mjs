@@ -245,6 +245,15 @@ await test("the way back", async () => {
   }
 });
 
+await test("mean free path", async () => {
+  const isShown = () => ask("getComputedStyle(document.querySelector('[data-number=path]')).display !== 'none'");
+  for (const [id, isThere] of [["gas", true], ["lorentz", false], ["mixing", true]]) {
+    await ask(`carom.scene("${id}")`);
+    await pause(300);
+    check(`${id}: it is shown where no posts end paths`, (await isShown()) === isThere);
+  }
+});
+
 await test("bits", async () => {
   await ask(`carom.scene("box", { n: 100 })`);
   const toml = await ask("carom.run.toml");
