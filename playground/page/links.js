@@ -59,10 +59,14 @@ async function openLink() {
 /// The scene of the start with all that was set, as TOML.
 const sceneText = async () => (await run.engine.ask("scene")).toml;
 
+/// A scene's text without those of its own changes that come later than now: a run must not end before its last one.
+const withChangesSoFar = (toml) =>
+  toml.split(/^(?=\[)/m).filter((table) => !(table.startsWith("[[changes]]") && Number(table.match(/^time = (.*)$/m)[1]) > run.numbers[at.time])).join("");
+
 /// The commands by which the program repeats the run up to now, and prints the same hash.
 async function commandText() {
   const { toml: changes } = await run.engine.ask("changes");
-  const lines = [`cat > playground.toml <<'END'\n${await sceneText()}END`];
+  const lines = [`cat > playground.toml <<'END'\n${withChangesSoFar(await sceneText())}END`];
   if (changes) lines.push(`cat > changes.toml <<'END'\n${changes}END`);
   lines.push(`carom run playground.toml --set run.time=${number(run.numbers[at.time])}${changes ? " --changes changes.toml" : ""} --no-trajectory --force`);
   return `${lines.join("\n")}\n`;

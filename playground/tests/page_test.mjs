@@ -303,6 +303,20 @@ await test("bits", async () => {
   check("and forward again are the same bits", (await ask("carom.stateHash()")) === hash);
 });
 
+await test("the command that repeats a run", async () => {
+  const own = `${twoDisks}${[1.5, 2.5].map((time) => `[[changes]]\ntime = ${time}\nscale_velocities = 1.5\n`).join("")}`;
+  await ask(`carom.load(${JSON.stringify(own)})`);
+  check("the page knows both changes of the scene", ((await ask("carom.runUntil(3).then(() => carom.command())")).match(/^\[\[changes\]\]/gm) ?? []).length === 2, await ask("carom.command()"));
+  await ask(`carom.load(${JSON.stringify(own)})`);
+  const command = await ask("carom.runUntil(2).then(() => carom.command())");
+  check("it leaves out those that are to come", /^time = 1.5$/m.test(command) && !/^time = 2.5$/m.test(command), command);
+  if (!carom) return;
+  const directory = mkdtempSync(join(tmpdir(), "carom-page-test-"));
+  const run = spawnSync("sh", ["-c", command.replace("carom run", `'${carom}' run`)], { cwd: directory, encoding: "utf8" });
+  check("it runs", run.status === 0 && run.stdout.includes(await ask("carom.stateHash()")), `${run.stdout}${run.stderr}`);
+  rmSync(directory, { recursive: true });
+});
+
 await test("links", async () => {
   await browser.open(`${address}#run=AAAA.zzz`);
   check("a damaged link is told", /damaged/.test(await notice()), await notice());
