@@ -72,10 +72,13 @@ async function commandText() {
   return `${lines.join("\n")}\n`;
 }
 
+/// A literal of Python that holds a text line by line.
+const pythonLiteral = (text) => `'''\n${text.replace(/\\|'(?='')/g, "\\$&")}'''`;
+
 /// A program in Python that does the same, from the start to now.
 async function pythonText() {
   const { toml: changes } = await run.engine.ask("changes");
-  return `import carom\n\nscene = carom.Scene.parse('''\n${await sceneText()}''')\nsimulation = carom.Simulation(scene)\n` +
+  return `import carom\n\nscene = carom.Scene.parse(${pythonLiteral(await sceneText())})\nsimulation = carom.Simulation(scene)\n` +
     (changes ? "# The changes that were made in the page are not part of this; carom run --changes repeats them.\n" : "") +
     `simulation.run_until(${number(run.numbers[at.time])})\nprint(simulation.state_hash)\n`;
 }

@@ -317,6 +317,23 @@ await test("the command that repeats a run", async () => {
   rmSync(directory, { recursive: true });
 });
 
+await test("the program in Python", async () => {
+  if (spawnSync("python3", ["--version"]).status !== 0) return;
+  const title = String.raw`'''a\"b\\n''''`;  // quotes and backslashes, as TOML writes them
+  await ask(`carom.load(${JSON.stringify(`title = "${title}"\n${twoDisks}`)})`);
+  await ask('Object.defineProperty(navigator, "clipboard", { configurable: true, value: { writeText: async (text) => { window.copied = text; } } })');
+  const copied = async (name) => {
+    await ask(`window.copied = ""; document.getElementById("${name}").click()`);
+    await pause(300);
+    return ask("window.copied");
+  };
+  const [toml, program] = [await copied("copyToml"), await copied("copyPython")];
+  const firstText = "import ast, sys\nprint(next(node.value for node in ast.walk(ast.parse(sys.stdin.read())) if isinstance(node, ast.Constant)), end='')";
+  const read = spawnSync("python3", ["-c", firstText], { input: program, encoding: "utf8" });
+  check("it holds the scene, whatever its quotes", toml.includes("'''a") && read.stdout === `\n${toml}`, `${read.stderr}${read.stdout}`);
+  await ask("delete navigator.clipboard");
+});
+
 await test("links", async () => {
   await browser.open(`${address}#run=AAAA.zzz`);
   check("a damaged link is told", /damaged/.test(await notice()), await notice());
