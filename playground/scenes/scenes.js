@@ -52,6 +52,11 @@ const gasOf = (p, name, boundary, velocities = kT(p.kT)) => {
     boxOf([0, side], [0, side], boundary);
 };
 
+/// Balls that fly alike, 10^apart above each other. Their radius is a hundredth of that, so that they hardly ever meet.
+const beam = (p, [x, y]) =>
+  disksOf({ name: "balls", radius: 10 ** p.apart / 100, positions: pairs(Array.from({ length: p.n }, (_, k) => [x, y + 10 ** p.apart * k])),
+    velocities: pairs(Array.from({ length: p.n }, () => [0.8, 0.6])) });
+
 const scenes = [
   {
     id: "gas", group: "gases", start: [count(400, 20000), packing(0.3), temperature()],
@@ -299,8 +304,7 @@ const scenes = [
     id: "sinai", group: "few", start: [{ key: "n", least: 1, usual: 12, most: 60, step: 1 }, { key: "apart", least: -8, usual: -3, most: -1, step: 1 }], colour: "id", shows: "walls",
     live: [], trails: true,
     make: (p) => titled("Sinai's billiard") + boxOf([-10, 10], [-10, 10], walls) +
-      disksOf({ name: "balls", radius: 0.02, positions: pairs(Array.from({ length: p.n }, (_, k) => [-8 + 0.05 * (k % 8), -3 + 0.05 * Math.floor(k / 8)])),
-        velocities: pairs(Array.from({ length: p.n }, (_, k) => [0.8 + 10 ** p.apart * k, 0.6])) }) + post([0, 0], 4) + collision() + runOf(p),
+      beam(p, [-8, -3]) + post([0, 0], 4) + collision() + runOf(p),
   },
   {
     id: "stadium", group: "few", start: [{ key: "n", least: 1, usual: 8, most: 20, step: 1 }, { key: "straight", least: 0, usual: 8, most: 16, step: 1 }, { key: "apart", least: -8, usual: -3, most: -1, step: 1 }], colour: "id", trails: true,
@@ -309,8 +313,7 @@ const scenes = [
       const [half, radius] = [p.straight / 2, 8];
       const sides = half > 0 ? segment([-half, -radius], [half, -radius]) + segment([half, radius], [-half, radius]) : "";
       return titled("Bunimovich's stadium") + boxOf([-half - radius - 0.5, half + radius + 0.5], [-radius - 0.5, radius + 0.5], walls) +
-        disksOf({ name: "balls", radius: 0.02, positions: pairs(Array.from({ length: p.n }, (_, k) => [-2 + 0.05 * (k % 5), 1 + 0.05 * Math.floor(k / 5)])),
-          velocities: pairs(Array.from({ length: p.n }, (_, k) => [0.8 + 10 ** p.apart * k, 0.6])) }) +
+        beam(p, [-2, 1]) +
         arc([-half, 0], radius, 90, 270) + arc([half, 0], radius, -90, 90) + sides + collision() + runOf(p);
     },
   },

@@ -254,6 +254,18 @@ await test("mean free path", async () => {
   }
 });
 
+await test("balls that start nearly alike", async () => {
+  for (const id of ["sinai", "stadium"]) {
+    const spread = [];
+    for (const apart of [-1, -8]) {
+      await ask(`carom.scene("${id}", { n: 20, apart: ${apart} })`);
+      await ask("carom.runUntil(30)");
+      spread.push(await ask("Math.max(...carom.run.x) - Math.min(...carom.run.x)"));
+    }
+    check(`${id}: they part the later, the nearer they start`, spread[0] > 0.5 && spread[1] < 1e-4, spread);
+  }
+});
+
 await test("bits", async () => {
   await ask(`carom.scene("box", { n: 100 })`);
   const toml = await ask("carom.run.toml");
