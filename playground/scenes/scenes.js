@@ -295,8 +295,9 @@ const scenes = [
   },
   {
     id: "galperin", group: "few", start: [{ key: "digits", least: 0, usual: 2, most: 4, step: 1 }], colour: "species", counts: "all",
-    live: [], shows: "walls",
-    make: (p) => titled("Galperin counts pi") + boxOf([0, 24], [-1, 1], walls) +
+    live: [], shows: "walls", extent: [0, 24, -1, 1],
+    // The far wall is out of sight, and so far away that it adds no collision.
+    make: (p) => titled("Galperin counts pi") + boxOf([0, 1e6], [-1, 1], walls) +
       disksOf({ name: "light", radius: 0.25, positions: pairs([[3, 0]]), velocities: '"rest"' }) +
       disksOf({ name: "heavy", radius: 0.75, mass: 100 ** p.digits, positions: pairs([[8, 0]]), velocities: pairs([[-1, 0]]) }) + collision() + runOf(p, 100),
   },
