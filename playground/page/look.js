@@ -21,9 +21,10 @@ function applyTheme() {
 const byId = (name) => document.getElementById(name);
 
 let noticeTimer = 0;
-/// Says a sentence above the disks, for some seconds.
+/// Says a sentence above the disks, for some seconds; in an open dialog, which would cover it there, below what it has.
 function notify(sentence, isGood = false) {
   const note = byId("notice");
+  (document.querySelector("dialog[open]") ?? byId("overlay").parentElement).append(note);
   note.textContent = told(sentence);
   note.classList.toggle("good", isGood);
   note.hidden = false;

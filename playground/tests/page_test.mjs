@@ -526,6 +526,15 @@ await test("screens", async () => {
   await ask(`(() => { const input = document.querySelector('[data-start="eta"]'); input.max = 7; input.value = 7; input.dispatchEvent(new Event("change")); })()`);
   await pause(300);
   check("what is refused too", /gleiche Scheiben erreichen höchstens 0.9069/.test(await notice()), await notice());
+  await ask('Object.defineProperty(navigator, "clipboard", { configurable: true, value: { writeText: async () => {} } })');
+  await ask('document.getElementById("shareDialog").showModal(); document.getElementById("copyLink").click()');
+  await pause(300);
+  check("that a link is copied can be read above the dialog", await ask(`(() => {
+    const note = document.getElementById("notice"), { left, top, width, height } = note.getBoundingClientRect();
+    note.style.pointerEvents = "auto";
+    return note.textContent === "Kopiert." && document.elementFromPoint(left + width / 2, top + height / 2) === note;
+  })()`), await notice());
+  await ask('document.getElementById("shareDialog").close(); document.getElementById("notice").style.pointerEvents = ""');
   check("every button has a name", await ask("[...document.querySelectorAll('button')].every((one) => one.textContent.trim() !== '' || one.getAttribute('aria-label'))"));
   check("every field has a name", await ask("[...document.querySelectorAll('input, select')].every((one) => one.closest('label') || one.getAttribute('aria-label') || document.querySelector(`label[for=\"${one.id}\"]`))"));
   await browser.size(1280, 800);
