@@ -5,17 +5,19 @@ const lineColours = () => [theme.accent, theme.second, theme.muted];
 
 const powerOfTen = (power) => `10${[...String(power)].map((c) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[c] ?? "⁻").join("")}`;
 
-/// Returns a number with at most `digits` digits: 1.5, 0.00123, 1.2·10⁵.
+/// Returns a number as the reader's language writes it, with marks between thousands from 10,000 on.
+const written = (value, options) => value.toLocaleString(language, { useGrouping: Math.abs(value) >= 1e4, ...options });
+
+/// Returns a number with at most `digits` digits: 1.5, 0.00123, 1.2·10⁵; in German 1,5.
 function short(value, digits = 3) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
   if (value === 0) return "0";
   const size = Math.abs(value);
   if (size >= 1e6 || size < 1e-4) {
     const [head, power] = value.toExponential(digits - 1).split("e");
-    return `${head}·${powerOfTen(Number(power))}`;
+    return `${written(Number(head), { minimumFractionDigits: digits - 1 })}·${powerOfTen(Number(power))}`;
   }
-  const rounded = Number(value.toPrecision(digits));
-  return size >= 1e4 ? rounded.toLocaleString(language) : String(rounded);
+  return written(value, { maximumSignificantDigits: digits });
 }
 
 /// Returns a mean with its standard error, both to two digits of the error: 1.234 ± 0.056.
@@ -23,7 +25,8 @@ function withError(mean, error) {
   if (mean === null || mean === undefined) return "–";
   if (!(error > 0)) return short(mean, 4);
   const places = Math.max(0, Math.min(8, 1 - Math.floor(Math.log10(error))));
-  return `${mean.toFixed(places)} ± ${error.toFixed(places)}`;
+  const [shownMean, shownError] = [mean, error].map((value) => written(value, { minimumFractionDigits: places, maximumFractionDigits: places }));
+  return `${shownMean} ± ${shownError}`;
 }
 
 function clearPlot(canvas) {

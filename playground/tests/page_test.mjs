@@ -525,7 +525,7 @@ await test("screens", async () => {
   await ask('carom.scene("gas")');
   await ask(`(() => { const input = document.querySelector('[data-start="eta"]'); input.max = 7; input.value = 7; input.dispatchEvent(new Event("change")); })()`);
   await pause(300);
-  check("what is refused too", /gleiche Scheiben erreichen höchstens 0.9069/.test(await notice()), await notice());
+  check("what is refused too", /gleiche Scheiben erreichen höchstens 0,9069/.test(await notice()), await notice());
   await ask('Object.defineProperty(navigator, "clipboard", { configurable: true, value: { writeText: async () => {} } })');
   await ask('document.getElementById("shareDialog").showModal(); document.getElementById("copyLink").click()');
   await pause(300);
@@ -535,6 +535,10 @@ await test("screens", async () => {
     return note.textContent === "Kopiert." && document.elementFromPoint(left + width / 2, top + height / 2) === note;
   })()`), await notice());
   await ask('document.getElementById("shareDialog").close(); document.getElementById("notice").style.pointerEvents = ""');
+  await ask('carom.scene("box", { n: 50, kT: 1.5 }).then(() => carom.runUntil(200))');
+  await pause(400);
+  const numbers = await ask(`[...document.querySelectorAll("#liveSettings output, #startSettings output, [data-number=kT], [data-number=walls], #rateText")].map((one) => one.textContent).join(" ")`);
+  check("numbers have a comma in German", /\d,\d/.test(numbers) && /\d,\d+ ± 0,\d/.test(numbers) && !/\d\.\d/.test(numbers), numbers);
   check("every button has a name", await ask("[...document.querySelectorAll('button')].every((one) => one.textContent.trim() !== '' || one.getAttribute('aria-label'))"));
   check("every field has a name", await ask("[...document.querySelectorAll('input, select')].every((one) => one.closest('label') || one.getAttribute('aria-label') || document.querySelector(`label[for=\"${one.id}\"]`))"));
   await browser.size(1280, 800);
