@@ -539,6 +539,12 @@ await test("screens", async () => {
   await pause(400);
   const numbers = await ask(`[...document.querySelectorAll("#liveSettings output, #startSettings output, [data-number=kT], [data-number=walls], #rateText")].map((one) => one.textContent).join(" ")`);
   check("numbers have a comma in German", /\d,\d/.test(numbers) && /\d,\d+ ± 0,\d/.test(numbers) && !/\d\.\d/.test(numbers), numbers);
+  for (const id of ["heat", "couette", "compression", "vibrated", "granular", "piston"]) {
+    await ask(`carom.scene("${id}")`);
+    await pause(200);
+    const why = await ask('document.getElementById("noZ").textContent');
+    check(`${id}: why there is no equation of state is said in German`, !/\b(walls|the|and|energy)\b/.test(why), why);
+  }
   check("every button has a name", await ask("[...document.querySelectorAll('button')].every((one) => one.textContent.trim() !== '' || one.getAttribute('aria-label'))"));
   check("every field has a name", await ask("[...document.querySelectorAll('input, select')].every((one) => one.closest('label') || one.getAttribute('aria-label') || document.querySelector(`label[for=\"${one.id}\"]`))"));
   await browser.size(1280, 800);
