@@ -32,9 +32,16 @@ const stepEnergy = (k) => ({
 const elasticBelow = (drag) =>
   `collision.elastic_below=${drag > 0 ? "{ time = 0 }" : (run.toml.match(/\belastic_below\s*=\s*(\{[^}]*\})/)?.[1] ?? "{ time = 1e-3 }")}`;
 
+/// Gravity downwards; that to the side stays.
+const gravitySetting = (most) => ({
+  least: 0, most, step: 0.01, unit: "length / time²",
+  value: (d) => -d.gravity[1],
+  change: (v, d) => setKeys(`gravity.acceleration=[${d.gravity[0]}, ${-v || 0}]`),
+});
+
 const liveSettings = {
-  gravity: { least: 0, most: 2, step: 0.01, unit: "length / time²", value: (d) => -d.gravity[1], change: (v) => setKeys(`gravity.acceleration=[0, ${-v || 0}]`) },
-  gravity0: { least: 0, most: 1, step: 0.01, unit: "length / time²", value: (d) => -d.gravity[1], change: (v) => setKeys(`gravity.acceleration=[0, ${-v || 0}]`) },
+  gravity: gravitySetting(2),
+  gravity0: gravitySetting(1),
   restitution: { least: 0.3, most: 1, step: 0.01, unit: "", value: (d) => d.restitution ?? 1, change: (v, d) => setKeys(`collision.restitution=${v}`, elasticBelow(d.drag)) },
   roughness: { least: -1, most: 1, step: 0.05, unit: "", value: (d) => d.roughness ?? -1, change: (v) => setKeys(`collision.roughness=${v}`) },
   rule: { choices: ["specular", "reversal"], value: (d) => d.rule, change: (v) => setKeys(`collision.rule="${v}"`) },

@@ -230,6 +230,9 @@ await test("restitution and drag", async () => {
   await slide("restitution", 0.7);
   check("a scene keeps its own time below which collisions are elastic", /elastic_below=\{ time = 1e-2 \}/.test(await ask("carom.changes()")), await ask("carom.changes()"));
   await ask(`carom.load(${JSON.stringify(twoDisks + "[gravity]\nacceleration = [0, -1]\n")})`);
+  await ask(`carom.load(${JSON.stringify(twoDisks + "[gravity]\nacceleration = [0.3, -0.5]\n")})`);
+  await slide("gravity", 0.6);
+  check("gravity to the side stays", (await ask("carom.run.description.gravity")).join() === "0.3,-0.6", await ask("carom.run.description.gravity"));
   check("drag is not offered where it cannot be combined", await ask(`document.querySelector('[data-setting="drag"]') === null`));
 });
 
