@@ -169,6 +169,8 @@ async function loadScene(scene, start = {}) {
   const all = { seed: 1 };
   for (const { key, usual } of scene.start) all[key] = usual;
   for (const [key, value] of Object.entries(start)) if (Number.isFinite(value)) all[key] = value;
+  for (const { key, least } of scene.start)
+    if (least > 0 && !(all[key] > 0)) throw new Error(t("startNotPositive", { name: t(`start.${key}`), key, value: all[key] }));
   if ("n" in all) all.n = Math.max(1, Math.round(all.n));
   if (all.n > mostDisks) throw new Error(t("tooManyDisks", { count: grouped(all.n), most: grouped(mostDisks) }));
   const toml = scene.make(all);

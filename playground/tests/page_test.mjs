@@ -370,6 +370,10 @@ await test("refusals", async () => {
   check("a wall through a disk is refused", /obstacle/.test(await refused('carom.change("add_obstacle = { segment = { from = [2, 0], to = [2, 10] } }")')));
   check("a disk upon a disk is refused", /overlap/.test(await refused('carom.change("add_disk = { position = [2, 5] }")')));
   check("nonsense is refused", (await refused('carom.change("hello")')) !== "");
+  for (const [key, value] of [["eta", 0], ["eta", -1], ["kT", -2], ["n", 0]]) {
+    const sentence = await refused(`carom.scene("gas", { ${key}: ${value} })`);
+    check(`a start with ${key} = ${value} is refused by its name`, sentence.includes(`(${key}) must be greater than 0, and is ${value}.`), sentence);
+  }
   check("an unknown scene is refused", /no scene/.test(await refused('carom.scene("nothing")')));
   await ask("carom.runUntil(2)");
   check("and the run goes on", (await time()) === 2);
