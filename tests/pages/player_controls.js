@@ -6,12 +6,12 @@ const events = replay.stepTimes;
 // Time.
 carom.seek(0.25 * duration);
 check("the seek", moment.time === 0.25 * duration && !settings.isPlaying);
-for (const [name, act] of [["play button", () => byId("play").click()], ["space", () => press(" ")], ["K", () => press("k")]]) {
+for (const [name, act] of [["play button", () => byId("play-pause").click()], ["space", () => press(" ")], ["K", () => press("k")]]) {
   const before = moment.time;
   act();
   carom.frame(0.01);
   check(`${name} plays`, settings.isPlaying && near(moment.time, before + 0.01 * settings.rate));
-  check(`${name} shows it`, byId("play").getAttribute("aria-pressed") === "true" && byId("play").title.startsWith("Pause"));
+  check(`${name} shows it`, byId("play-pause").getAttribute("aria-pressed") === "true" && byId("play-pause").title.startsWith("Pause"));
   act();
   const at = moment.time;
   carom.frame(0.01);
@@ -87,9 +87,9 @@ for (const [name, act] of [["loop button", () => byId("loop").click()], ["L", ()
   act();
 }
 carom.seek(duration);
-byId("play").click();
+byId("play-pause").click();
 check("playing at the end begins anew", moment.time === 0 && settings.isPlaying);
-byId("play").click();
+byId("play-pause").click();
 give("rate", -60, "input");
 const slowest = settings.rate;
 give("rate", 60, "input");

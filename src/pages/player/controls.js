@@ -36,9 +36,9 @@ function fillLists() {
 
 /// Copies the settings into the controls.
 function showSettings() {
-  control("play").setAttribute("aria-pressed", settings.isPlaying);
-  control("play").querySelector("use").setAttribute("href", settings.isPlaying ? "#icon-pause" : "#icon-play");
-  control("play").title = settings.isPlaying ? "Pause (Space)" : "Play (Space)";
+  control("play-pause").setAttribute("aria-pressed", settings.isPlaying);
+  control("play-pause").querySelector("use").setAttribute("href", settings.isPlaying ? "#icon-pause" : "#icon-play");
+  control("play-pause").title = settings.isPlaying ? "Pause (Space)" : "Play (Space)";
   for (const [name, setting] of Object.entries(toggles)) control(name).setAttribute("aria-pressed", settings[setting]);
   control("colour").value = settings.colourBy;
   control("palette").value = settings.palette;
@@ -72,7 +72,7 @@ function toggleFull() {
 
 function connectControls() {
   const onClick = (name, action) => control(name).addEventListener("click", action);
-  onClick("play", togglePlay);
+  onClick("play-pause", togglePlay);
   onClick("next", () => stepEvent(1));
   onClick("previous", () => stepEvent(-1));
   onClick("zoom-in", () => zoomBy(1.25));
