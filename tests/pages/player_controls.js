@@ -6,6 +6,13 @@ const events = replay.stepTimes;
 // Time.
 carom.seek(0.25 * duration);
 check("the seek", moment.time === 0.25 * duration && !settings.isPlaying);
+let refusal = null;
+try {
+  carom.seek(NaN);
+} catch (error) {
+  refusal = error;
+}
+check("no seek to what is no time", refusal instanceof RangeError && moment.time === 0.25 * duration);
 for (const [name, act] of [["play button", () => byId("play-pause").click()], ["space", () => press(" ")], ["K", () => press("k")]]) {
   const before = moment.time;
   act();

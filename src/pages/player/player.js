@@ -56,6 +56,7 @@ window.carom = {
   duration,
   frames: 0,
   seek: (time) => {
+    if (Number.isNaN(Number(time))) throw new RangeError(`${time} is not a time`);
     change({ isPlaying: false });
     showTime(time);
     frame(0);
