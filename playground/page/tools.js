@@ -61,6 +61,16 @@ const place = () => [folded(placeX(pointer.x), 0), folded(placeY(pointer.y), 1)]
 const thrownSpecies = () => run.description.species.length - 1;
 const thrownRadius = () => (run.description.species[thrownSpecies()]?.radius ?? 0.5) * run.numbers[at.scale];
 const digits = (value) => Number(value.toPrecision(9));
+
+// The place in the box that is nearest to one: rounded numbers may be beyond its edge.
+function insideBox([x, y]) {
+  const [left, right, bottom, top] = [at.left, at.right, at.bottom, at.top].map((wall) => run.numbers[wall]);
+  if (!run.description.isCircle) return [Math.min(Math.max(x, left), right), Math.min(Math.max(y, bottom), top)];
+  const [x0, y0] = [(left + right) / 2, (bottom + top) / 2];
+  const scale = Math.min(1, ((1 - 1e-9) * (right - left)) / 2 / Math.hypot(x - x0, y - y0));
+  return [x0 + scale * (x - x0), y0 + scale * (y - y0)];
+}
+
 const pairText = ([x, y]) => `[${digits(x)}, ${digits(y)}]`;
 
 function drawGhost(x, y, radius, isFree) {
@@ -153,8 +163,7 @@ const tools = {
       const from = [placeX(pointer.startX), placeY(pointer.startY)];
       const to = [placeX(pointer.x), placeY(pointer.y)];
       if (Math.hypot(to[0] - from[0], to[1] - from[1]) * view.scale < 5) return;
-      const clamped = ([x, y]) => [Math.min(Math.max(x, run.numbers[at.left]), run.numbers[at.right]), Math.min(Math.max(y, run.numbers[at.bottom]), run.numbers[at.top])];
-      await changeRun(`add_obstacle = ${segmentText(clamped(from).map(digits), clamped(to).map(digits))}`);
+      await changeRun(`add_obstacle = ${segmentText(insideBox(from.map(digits)), insideBox(to.map(digits)))}`);
     },
   },
   erase: {
