@@ -7,7 +7,6 @@
 #include "io/h5md_parts.hpp"
 #include "io/hdf5_handle.hpp"
 #include "scene/changes.hpp"
-#include "text/numbers.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -130,8 +129,7 @@ std::vector<double> RunReader::sample_times() const {
 void RunReader::require_sample(std::uint64_t k) const {
   require_samples();
   if (k >= samples_)
-    throw OutputError(fmt::format("{}: there is no sample {}: this run kept {}, numbered from 0", path_.string(), k,
-                                  counted(samples_, "sample")));
+    throw OutputError(fmt::format("{}: there is no sample {}; the last one is {}", path_.string(), k, samples_ - 1));
 }
 
 State RunReader::sample(std::uint64_t k) const {
@@ -248,8 +246,8 @@ std::vector<Event> RunReader::event_log(std::uint64_t first, std::uint64_t numbe
   if (number == 0) return {};
   require_event_log();
   if (first > events_ || number > events_ - first)
-    throw OutputError(fmt::format("{}: there are no events {} to {}: this run logged {}, numbered from 0", path_.string(), first,
-                                  first + (number - 1), counted(events_, "event")));
+    throw OutputError(fmt::format("{}: there are no events {} to {}; the number of events is {}", path_.string(), first,
+                                  first + (number - 1), events_));
   return guarded([&] {
     const auto column = [&](const char* name, std::uint64_t row) {
       return rows(std::string("/events/") + name, first, number, row);
