@@ -188,8 +188,8 @@ class Simulation {
   /// Runs on several cores from now on, or on one again. No bit of what follows depends on it. What cannot be shared out, as
   /// single steps, is done by one core in between; the first run after that shares the disks out again, which takes the time of
   /// some events per disk. Throws std::invalid_argument where a number is not as carom/threads.hpp says, or several threads are
-  /// asked for and why_not_threads() has a reason against them. While an effect keeps it on one core until a change of the scene
-  /// ends that, it is shared out from then on.
+  /// asked for and why_not_threads() has a reason against them. Where an effect keeps it on one core until a change of the scene,
+  /// it is shared out after that change.
   void set_threads(const Threads& threads);
   /// Does so on that many threads of each of the ranks, which must outlive the simulation (carom/ranks.hpp). This is rank 0; the
   /// others are in serve_ranks(). Throws std::runtime_error too where one of them has no memory for it.
@@ -253,8 +253,9 @@ Simulation make_simulation(const Scene& scene, const std::string& engine = "auto
 /// images, and what effects of this scene go on from: spins where there is roughness, the scale of radii where disks grow, places
 /// of moving walls and velocities of pistons, the displacement of images that slide. The rest is dropped, remainders too, so that
 /// every engine begins with the same numbers. The scene is checked as above. Throws std::invalid_argument too where any of it is
-/// not finite, a position is outside the box, or there is not one position and one velocity for each of the scene's disks; nor
-/// one image and one spin, or four walls, where there are any. Disks may overlap, as fixed steps leave them: such pairs part.
+/// not finite, a position is outside the box, or there is not one position and one velocity for each of the scene's disks. The
+/// same holds for images and spins, of which there is one for each disk or none, and for walls, which are four or none. Disks may
+/// overlap: those that do and approach each other collide at once.
 Simulation make_simulation(const Scene& scene, const State& start, const std::string& engine = "auto");
 
 /// The scene advanced by a fixed-step method in place of exact events, through the same door: states between two steps are those
