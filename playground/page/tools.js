@@ -62,7 +62,7 @@ const thrownSpecies = () => run.description.species.length - 1;
 const thrownRadius = () => (run.description.species[thrownSpecies()]?.radius ?? 0.5) * run.numbers[at.scale];
 const digits = (value) => Number(value.toPrecision(9));
 
-// The place in the box that is nearest to one: rounded numbers may be beyond its edge.
+/// The place in the box that is nearest to one: rounded numbers may be beyond its edge.
 function insideBox([x, y]) {
   const [left, right, bottom, top] = [at.left, at.right, at.bottom, at.top].map((wall) => run.numbers[wall]);
   if (!run.description.isCircle) return [Math.min(Math.max(x, left), right), Math.min(Math.max(y, bottom), top)];
