@@ -12,9 +12,17 @@ template <class Impact, class Layout, class World>
 BoxDomain<Impact, Layout, World>::BoxDomain(const Loop& whole, const BoxParts& parts, std::size_t me, double reach)
     : Loop(whole,
            [&] {
-             std::size_t slots = 0;
-             for (std::int32_t i = 0; i < whole.count(); ++i)
-               slots += parts.outside(whole.lists_.centre(i), me) <= reach ? 1U : 0U;
+             std::vector<bool> named(whole.lines_.size());  // the disks here, and those elsewhere whose partners they are
+             const auto name = [&](std::int32_t i) { named[static_cast<std::size_t>(i)] = true; };
+             for (std::int32_t i = 0; i < whole.count(); ++i) {
+               if (parts.outside(whole.lists_.centre(i), me) > reach) continue;
+               name(i);
+               if (whole.plans_[i].partner >= 0) name(whole.plans_[i].partner);
+               if constexpr (!Impact::plain)
+                 if (whole.impact_.potential().present())
+                   for (const PairStep& pair : whole.impact_.potential().of(i)) name(pair.disk);
+             }
+             const auto slots = static_cast<std::size_t>(std::count(named.begin(), named.end(), true));
              return slots + slots / 32 + 512;
            }()),
       parts_(parts),
