@@ -77,9 +77,13 @@ class FlightFrame {
 
     bool operator==(const DiskRest&) const = default;
   };
+  void read_rest(std::int32_t i, DiskRest& rest) const {
+    for (int k = 0; k < 2; ++k) rest.images[k] = images_.of(i, k);
+    rest.steps = rests_.empty() ? std::array<StepRest, 2>{} : rests_[static_cast<std::size_t>(i)];
+  }
   [[nodiscard]] DiskRest rest_of(std::int32_t i) const {
-    DiskRest rest{{images_.of(i, 0), images_.of(i, 1)}, {}};
-    if (!rests_.empty()) rest.steps = rests_[static_cast<std::size_t>(i)];
+    DiskRest rest;
+    read_rest(i, rest);
     return rest;
   }
   void prefetch_rest(std::int32_t i) const { images_.prefetch_count(i); }

@@ -18,10 +18,7 @@ class ImageCounts {
 
   [[nodiscard]] std::int64_t of(std::int32_t i, int axis) const {
     const std::int64_t low = low_[static_cast<std::size_t>(i)][static_cast<std::size_t>(axis)];
-    if (far_.empty()) [[likely]]
-      return low;
-    const auto found = far_.find({i, axis});
-    return found == far_.end() ? low : low + found->second;
+    return far_.empty() ? low : low + beyond(i, axis);
   }
 
   void set(std::int32_t i, int axis, std::int64_t count) {
@@ -47,6 +44,10 @@ class ImageCounts {
 
   [[nodiscard]] std::int32_t& entry(std::int32_t i, int axis) {
     return low_[static_cast<std::size_t>(i)][static_cast<std::size_t>(axis)];
+  }
+  [[nodiscard, gnu::noinline, gnu::cold]] std::int64_t beyond(std::int32_t i, int axis) const {
+    const auto found = far_.find({i, axis});
+    return found == far_.end() ? 0 : found->second;
   }
   void keep(std::int32_t i, int axis, std::int64_t rest) {
     if (rest != 0)

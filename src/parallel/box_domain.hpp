@@ -234,6 +234,7 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   }
   [[gnu::noinline]] void step_copy(std::int32_t i, double time, bool with_home);
   std::int32_t slot_for(std::int32_t disk);
+  void find_slots(std::span<const Message> messages);
   void recycle_slots();
   void leave(std::int32_t i);
   void settle(std::int32_t i);
@@ -243,7 +244,7 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   /// Calls slot(id) for the ids of disks.
   template <class SlotOf>
   static std::vector<PairStep> slots_of(const StepsOfPairs& steps, SlotOf&& slot);
-  [[nodiscard]] Message message_of(std::int32_t i) const;
+  void write_message(std::int32_t i, Message& message) const;
   [[nodiscard]] bool same_events(std::int32_t i, const Message& message) const;
   [[nodiscard]] bool same_plan(std::int32_t i, const Message& message) const;
   /// The bits that say which neighbours copy a disk at home.

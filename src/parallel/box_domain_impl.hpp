@@ -192,7 +192,7 @@ void BoxDomain<Impact, Layout, World>::prefetch_span(std::int64_t span) const {
   if (!prefetcher_.looks_ahead()) return;
   for (const std::int32_t i : queue_.calendar().ids_of(span + 2)) {
     prefetch_early(&mark(i));
-    if (const std::int32_t partner = plans_[i].partner; partner >= 0) prefetch_early(&mark(partner));
+    prefetch_early(&mark(Prefetcher::partner_or_itself(i, plans_[i].partner)));
   }
   this->prefetch_calendar(span);
 }
@@ -262,11 +262,11 @@ std::vector<PairStep> BoxDomain<Impact, Layout, World>::slots_of(const StepsOfPa
   return slots;
 }
 
+/// Writes the message about the disk in a slot over an older one, member by member: to copy a whole message would wait for all
+/// stores before it, and they wait for memory that another processor has read.
 template <class Impact, class Layout, class World>
-typename BoxDomain<Impact, Layout, World>::Message BoxDomain<Impact, Layout, World>::message_of(std::int32_t i) const {
+void BoxDomain<Impact, Layout, World>::write_message(std::int32_t i, Message& message) const {
   const Plan& plan = plans_[i];
-  Message message;
-  std::memset(static_cast<void*>(&message), 0, sizeof message);
   message.line = line(i);
   message.pair_time = plan.pair_time;
   message.edge_time = plan.edge_time;
@@ -277,10 +277,9 @@ typename BoxDomain<Impact, Layout, World>::Message BoxDomain<Impact, Layout, Wor
   message.stale = plan.partner >= 0 && plans_.is_stale(plan);
   message.centre = lists_.centre(i);
   message.size = lists_.disk_size(i);
-  message.frame = flight_.rest_of(i);
+  flight_.read_rest(i, message.frame);
   message.impact = impact_.rest_of(i);
   message.steps = steps_of(i);
-  return message;
 }
 
 template <class Impact, class Layout, class World>
@@ -289,13 +288,21 @@ void BoxDomain<Impact, Layout, World>::write_messages() {
   moves_ = 0;
   std::erase_if(halo_, [this](std::int32_t i) { return mark(i).role != Role::halo; });
   for (std::size_t n = 0; n < neighbours_.size(); ++n) {
-    std::erase_if(copied_[n], [&](std::int32_t i) { return (mark(i).copied_by >> n & 1U) == 0; });
-    outboxes_[n].clear();
-    if (const std::size_t size = copied_[n].size(); size > outboxes_[n].capacity()) outboxes_[n].reserve(size + size / 16 + 16);
-    for (std::size_t k = 0; k < copied_[n].size(); ++k) {
-      if (k + 2 * ahead < copied_[n].size()) prefetch_disk(copied_[n][k + 2 * ahead]);
-      if (k + ahead < copied_[n].size()) prefetch_partner(copied_[n][k + ahead]);
-      outboxes_[n].push_back(message_of(copied_[n][k]));
+    std::vector<std::int32_t>& copied = copied_[n];
+    std::vector<Message>& outbox = outboxes_[n];
+    std::erase_if(copied, [&](std::int32_t i) { return (mark(i).copied_by >> n & 1U) == 0; });
+    if (copied.size() > outbox.capacity()) {
+      outbox.clear();
+      outbox.reserve(copied.size() + copied.size() / 16 + 16);
+    }
+    outbox.resize(copied.size());
+    for (std::size_t k = 0; k < copied.size(); ++k) {
+      if (k + 2 * ahead < copied.size()) {
+        prefetch_disk(copied[k + 2 * ahead]);
+        prefetch_for_writing(&outbox[k + 2 * ahead]), prefetch_for_writing(&outbox[k + 2 * ahead].centre);
+      }
+      if (k + ahead < copied.size()) prefetch_partner(copied[k + ahead]);
+      write_message(copied[k], outbox[k]);
     }
   }
 }
@@ -328,16 +335,39 @@ bool BoxDomain<Impact, Layout, World>::same_plan(std::int32_t i, const Message& 
          (plan.partner >= 0 && plans_.is_stale(plan)) == message.stale;
 }
 
+/// Finds the slots of the disks that messages are about, -1 for those without one. Messages and the table of slots come from far
+/// away, and so the processor waits for many at once. Sees to it that there is an unused slot for each disk without one; where
+/// that cannot be, the domain is crowded.
+template <class Impact, class Layout, class World>
+void BoxDomain<Impact, Layout, World>::find_slots(std::span<const Message> messages) {
+  const std::size_t first = reads_.size();
+  const auto find = [&] {
+    std::size_t missing = 0;
+    reads_.resize(first);
+    for (const Message& message : messages) {
+      const std::int32_t slot = slot_of_.find(message.id);
+      missing += static_cast<std::size_t>(slot < 0);
+      reads_.push_back({slot, true});
+    }
+    return missing <= unused_.size();
+  };
+  if (find()) return;
+  recycle_slots();
+  if (!find()) crowded_ = true;
+}
+
 template <class Impact, class Layout, class World>
 void BoxDomain<Impact, Layout, World>::read_lines(std::span<const Message> messages) {
+  const std::size_t first = reads_.size();
+  find_slots(messages);
+  if (crowded_) return;
   for (std::size_t k = 0; k < messages.size(); ++k) {
-    if (k + 2 * ahead < messages.size())
-      if (const std::int32_t next = slot_of_.find(messages[k + 2 * ahead].id); next >= 0) prefetch_disk(next);
-    if (k + ahead < messages.size())
-      if (const std::int32_t next = slot_of_.find(messages[k + ahead].id); next >= 0) prefetch_partner(next);
+    Read* const read = &reads_[first + k];
+    if (k + 2 * ahead < messages.size() && read[2 * ahead].slot >= 0) prefetch_disk(read[2 * ahead].slot);
+    if (k + ahead < messages.size() && read[ahead].slot >= 0) prefetch_partner(read[ahead].slot);
     const Message& message = messages[k];
-    const std::int32_t i = slot_for(message.id);
-    if (crowded_) return;
+    if (read->slot < 0) read->slot = slot_for(message.id);
+    const std::int32_t i = read->slot;
     Mark& mine = mark(i);
     if (mine.role == Role::home) verdict_.conflict = true;
     bool changed = true;
@@ -371,7 +401,7 @@ void BoxDomain<Impact, Layout, World>::read_lines(std::span<const Message> messa
       impact_.set_rest(i, message.impact);
     }
     mine.read = reading_;
-    reads_.push_back({i, changed});
+    read->changed = changed;
   }
 }
 
@@ -380,6 +410,7 @@ void BoxDomain<Impact, Layout, World>::read_plans(std::span<const Message> messa
   for (const Message& message : messages) {
     if (crowded_) return;
     const auto [i, changed] = reads_[planned_++];
+    if (!changed) continue;
     const std::int32_t partner = message.partner < 0 ? -1 : slot_for(message.partner);
     Plan& plan = plans_[i];
     plan.pair_time = message.pair_time;
@@ -387,7 +418,6 @@ void BoxDomain<Impact, Layout, World>::read_plans(std::span<const Message> messa
     plan.partner = partner;
     plan.edge = message.edge;
     plan.predicted_at = message.stale || (partner >= 0 && empty(partner)) ? 0 : stamp_;
-    if (!changed) continue;
     if constexpr (!Impact::plain)
       if (impact_.potential().present())
         impact_.potential().set(i, slots_of(message.steps, [this](std::int32_t disk) { return slot_for(disk); }));
@@ -528,7 +558,7 @@ template <class Impact, class Layout, class World>
 void BoxDomain<Impact, Layout, World>::append_homes(std::vector<Message>& messages) const {
   messages.reserve(messages.size() + homes_);
   for (std::int32_t i = 0; i < count(); ++i)
-    if (mark(i).role == Role::home) messages.push_back(message_of(i));
+    if (mark(i).role == Role::home) write_message(i, messages.emplace_back());
 }
 
 template <class Impact, class Layout, class World>
