@@ -16,7 +16,6 @@
 
 #include <Eigen/Core>
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -114,17 +113,6 @@ class Redraws {
     const double grown = scale_.at(now) * radius, inertia = 0.5 * mass * grown * grown;
     return brownian_.acts() ? brownian_.spin(redraw.event.normals, inertia) : andersen_.spin(redraw.event, inertia);
   }
-  /// Returns the fastest speed that any of these redraws gives to a disk, whatever its speed was before; 0 for tumbles, which
-  /// keep speeds.
-  [[nodiscard]] double fastest(const std::vector<Redraw>& redraws) const {
-    double fastest = 0.0;
-    if (heat())
-      for (const Redraw& redraw : redraws)
-        fastest =
-            std::max(fastest, velocity(redraw, {0.0, 0.0}, disks_->mass[static_cast<std::size_t>(redraw.event.disk)]).norm());
-    return fastest;
-  }
-
   /// Returns the scale of radii, by which spins are drawn.
   [[nodiscard]] const GrowingScale& scale() const { return scale_; }
   void set_scale(const GrowingScale& scale) { scale_ = scale; }

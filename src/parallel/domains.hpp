@@ -217,14 +217,7 @@ class Domains {
   void adapt_window(double margin, bool whole_window);
   void lead_epoch();
   void end_of_epoch();
-  void watch_speeds(const SpeedCensus& speeds) { fastest_ = most_from(std::max(speeds.fastest[0], speeds.fastest[1])); }
-  /// Returns more than any speed that comes from these in the rest of the epoch, as good as surely.
-  [[nodiscard]] double most_from(double fastest) const {
-    if constexpr (World::plain)
-      return 1.5 * fastest;
-    else
-      return 1.5 * fastest + whole_.world_.walls.strongest_blow(0.0);
-  }
+  void watch_speeds(const SpeedCensus& speeds) { fastest_ = std::max(speeds.fastest[0], speeds.fastest[1]); }
   void hand_over_records();
   void count_steps() {
     if constexpr (!Impact::plain)
@@ -346,7 +339,7 @@ class Domains {
   std::vector<ExactSum> redraw_energies_;           ///< by domain: gained in this window
   bool window_begins_ = false;                      ///< and other ranks do not know it yet
   double target_ = 0.0;                             ///< the same since the epoch
-  double fastest_ = 0.0;                            ///< more than any speed in this epoch, as good as surely
+  double fastest_ = 0.0;                            ///< component of a velocity that there has been in this epoch
   std::uint64_t pair_limit_ = 0, event_limit_ = 0;  ///< of counts()
   std::uint64_t counted_ = 0;                       ///< collisions at the end of the last part of a window
   double part_ = 0.0;                               ///< collisions that this part was to bring

@@ -341,7 +341,6 @@ void Domains<Impact, Layout, World>::draw_redraws() {
   });
   most_redraws_ = due_.size();
   if (due_.size() >= most) window_end_ = longest_end_ = time_of(due_.back());
-  if (first()) fastest_ = std::max(fastest_, most_from(redraws_->fastest(due_)));
 }
 
 /// Counts the redraws of a window that was right.
@@ -495,7 +494,7 @@ void Domains<Impact, Layout, World>::decide() {
     stopped = stopped || facts.stopped || facts.verdict.conflict;
     nearest = std::min(nearest, facts.verdict.nearest);
     allowed = std::max(allowed, facts.read_at_home);
-    fastest_ = std::max(fastest_, 1.4143 * facts.fastest);  // of the two components: more than the square root of 2
+    fastest_ = std::max(fastest_, facts.fastest);  // a distance from home is that along one axis
     done_.events += facts.events;
     done_.copied_events += facts.copied_events;
     done_.copies += facts.verdict.compared;
