@@ -129,7 +129,8 @@ class Observation {
   Observation& operator=(const Observation&) = delete;
 
   /// Adds an observable. Throws SceneError where the observable follows collisions and something changes velocities between
-  /// them; std::logic_error after attach() or the first sample(), for it would not be measured.
+  /// them; std::logic_error after attach() or the first sample(), for it would not be measured; std::invalid_argument where its
+  /// step is negative or not finite, and for a null pointer.
   void add(std::unique_ptr<Observable> observable);
   /// Returns whether there is nothing to observe.
   [[nodiscard]] bool empty() const;

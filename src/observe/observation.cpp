@@ -28,6 +28,10 @@ class Observation::Driver {
   [[nodiscard]] ObservableGroup& group() { return group_; }
 
   void add(std::unique_ptr<Observable> observable) {
+    if (!observable) throw std::invalid_argument("add() takes an observable, and was given a null pointer");
+    if (const double step = observable->step(); !(step >= 0.0 && step < std::numeric_limits<double>::infinity()))
+      throw std::invalid_argument(
+          fmt::format("the step of {} is {}; it must be a time above 0, or 0 for no samples", observable->name(), step));
     if (attached_ || begun_)
       throw std::logic_error(fmt::format(
           "{} comes too late to be measured; add observables before attach() and the first sample()", observable->name()));

@@ -40,6 +40,16 @@ TEST(Observation, RefusesWhatWouldNotBeMeasured) {
     EXPECT_THROW(observation->add(std::make_unique<ImpactParameter>()), std::logic_error);
 }
 
+TEST(Observation, RefusesNullPointersAndStepsThatAreNoTimes) {
+  Simulation simulation = make_simulation(parse_scene(small_fluid("", "specular", "40.0")));
+  Observation observation(simulation);
+  EXPECT_THROW(observation.add(nullptr), std::invalid_argument);
+  Record record;
+  for (const double step : {-1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_THROW(observation.add(std::make_unique<Recorder>(step, record)), std::invalid_argument) << step;
+  EXPECT_TRUE(observation.empty());
+}
+
 TEST(Observation, RunsAnObservableOfAProgramsOwn) {
   Simulation simulation = make_simulation(parse_scene(small_fluid("", "specular", "40.0")));
   Observation observation(simulation);
