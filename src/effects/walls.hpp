@@ -137,13 +137,6 @@ class Walls {
     return most;
   }
 
-  /// Returns the most speed that a contact with any of the sides gives to a disk, at time t or in any of its periods.
-  [[nodiscard]] Real strongest_blow(Real t) const {
-    Real most = 0;
-    for (const Side& s : sides_) most = std::max<Real>(most, s.fastest(t) + s.vibration);
-    return 2 * most;
-  }
-
   /// The strongest acceleration of any of the sides that can go far by it.
   [[nodiscard]] Real strongest() const {
     using std::abs;

@@ -33,6 +33,7 @@
 #include <cstring>
 #include <limits>
 #include <span>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -189,6 +190,8 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   using Loop::totals_, Loop::counted_, Loop::tuning_, Loop::pacing_, Loop::sizes_, Loop::stall_, Loop::stamp_, Loop::now_;
 
   enum class Role : std::uint8_t { empty, home, halo };
+  /// So many disks a message names at most, beside the one that it is about.
+  static constexpr std::size_t most_named = 1 + std::tuple_size_v<decltype(StepsOfPairs::ids)>;
 
   struct Mark {
     std::uint64_t history = 0;    ///< hash of the events of the disk
@@ -235,6 +238,7 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   [[gnu::noinline]] void step_copy(std::int32_t i, double time, bool with_home);
   std::int32_t slot_for(std::int32_t disk);
   void find_slots(std::span<const Message> messages);
+  void reserve_slots(std::size_t most);
   void recycle_slots();
   void leave(std::int32_t i);
   void settle(std::int32_t i);
@@ -272,7 +276,7 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   std::size_t planned_ = 0;  ///< of them
   std::uint16_t reading_ = 0;
   std::size_t homes_ = 0;
-  bool crowded_ = false;  ///< there is no slot left
+  bool crowded_ = false;  ///< there are too few slots left
   Verdict verdict_;
   std::vector<CollisionRecord> collisions_;  ///< recorded in this window
   std::vector<Event> logged_;                ///< in this window

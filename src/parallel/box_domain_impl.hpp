@@ -84,15 +84,10 @@ BoxDomain<Impact, Layout, World>::BoxDomain(const Loop& whole, const BoxParts& p
   begin_epoch();
 }
 
-/// The slot of the disk with that id: the one that it has or had, or an unused one.
+/// The slot of the disk with that id: the one that it has or had, or an unused one, of which there must be one.
 template <class Impact, class Layout, class World>
 std::int32_t BoxDomain<Impact, Layout, World>::slot_for(std::int32_t disk) {
   if (const std::int32_t slot = slot_of_.find(disk); slot >= 0) return slot;
-  if (unused_.empty()) recycle_slots();
-  if (unused_.empty()) {
-    crowded_ = true;
-    return 0;
-  }
   const std::int32_t i = unused_.back();
   unused_.pop_back();
   slot_of_.insert(disk, i);
@@ -100,6 +95,15 @@ std::int32_t BoxDomain<Impact, Layout, World>::slot_for(std::int32_t disk) {
   plans_[i] = {never, never, -1, neighbourhood_edge, 0, 1};
   line(i).v[0] = line(i).v[1] = 0.0;
   return i;
+}
+
+/// Sees to it that so many slots are unused, or that the domain is crowded. It is that before the last slot is gone: to look for
+/// a few again and again would take as long as all slots each time.
+template <class Impact, class Layout, class World>
+void BoxDomain<Impact, Layout, World>::reserve_slots(std::size_t most) {
+  if (unused_.size() >= most) return;
+  recycle_slots();
+  crowded_ = crowded_ || unused_.size() < most + lines_.size() / 128;
 }
 
 /// Finds the empty slots that no plan names.
@@ -353,7 +357,7 @@ void BoxDomain<Impact, Layout, World>::find_slots(std::span<const Message> messa
   };
   if (find()) return;
   recycle_slots();
-  if (!find()) crowded_ = true;
+  crowded_ = !find();
 }
 
 template <class Impact, class Layout, class World>
@@ -411,6 +415,8 @@ void BoxDomain<Impact, Layout, World>::read_plans(std::span<const Message> messa
     if (crowded_) return;
     const auto [i, changed] = reads_[planned_++];
     if (!changed) continue;
+    reserve_slots(most_named);  // all at once: a slot that a plan does not name yet would be found again
+    if (crowded_) return;
     const std::int32_t partner = message.partner < 0 ? -1 : slot_for(message.partner);
     Plan& plan = plans_[i];
     plan.pair_time = message.pair_time;

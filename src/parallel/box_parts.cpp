@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace carom {
 
@@ -104,6 +105,14 @@ double BoxParts::outside(NeighbourhoodCentre centre, std::size_t part) const {
 std::int64_t BoxParts::gap(const Range& a, const Range& b) {
   if (a.begin < b.end && b.begin < a.end) return 0;
   return std::min((b.begin - a.end + all) % all, (a.begin - b.end + all) % all);
+}
+
+double BoxParts::thinnest() const {
+  double thinnest = std::numeric_limits<double>::infinity();
+  for (const Part& part : parts_)
+    for (std::size_t k = 0; k < 2; ++k)
+      thinnest = std::min(thinnest, static_cast<double>(part[k].end - part[k].begin) * step_[k]);
+  return thinnest;
 }
 
 std::size_t BoxParts::most_neighbours(double reach) const {

@@ -48,6 +48,9 @@ class BoxParts {
   /// Whether some place of one part is nearer to the other than `reach` (length).
   [[nodiscard]] bool adjacent(std::size_t a, std::size_t b, double reach) const;
 
+  /// The width (length) of the thinnest part, along either axis.
+  [[nodiscard]] double thinnest() const;
+
   /// The most parts to which one part is adjacent. O(parts^2).
   [[nodiscard]] std::size_t most_neighbours(double reach) const;
 

@@ -502,6 +502,9 @@ void Domains<Impact, Layout, World>::decide() {
   }
   const std::uint64_t happened = done_.events;
   allowed += fastest_ * (window_end_ - now_) + half_width_;
+  // A disk at home that only plans something wrong may have been misled by a copy somewhat farther out. The domain beyond its
+  // border tells then, unless that is so thin that it has been misled too.
+  if (parts_->thinnest() < half_width_) allowed += half_width_;
   const std::uint64_t pairs = counts().pair;
   const double length = window_end_ - now_;
   const double rate = length > 0.0 ? static_cast<double>(pairs - pairs_before_) / length : 0.0;
