@@ -27,14 +27,14 @@ bool is_page(const fs::path& path, std::string_view mark) {
 fs::path place_for_page(const std::string& output, const fs::path& otherwise, const PageKind& kind) {
   const fs::path path = output.empty() ? otherwise : fs::path(output);
   if (path.extension() != ".html" && path.extension() != ".htm")
-    throw UsageError(fmt::format("-o {}: the {} is an HTML page and nothing else; give it a name that ends in .html",
+    throw UsageError(fmt::format("{} {}: the {} is an HTML page and nothing else; give it a name that ends in .html", kind.option,
                                  path.string(), kind.name));
   std::error_code error;
   if (fs::is_directory(path, error))
-    throw UsageError(fmt::format("-o {}: this is a directory; name a file in it", path.string()));
+    throw UsageError(fmt::format("{} {}: this is a directory; name a file in it", kind.option, path.string()));
   if (fs::exists(path, error) && !is_page(path, kind.mark))
-    throw UsageError(fmt::format("{}: this file is there already, and is no {}; name another one with -o, or remove it",
-                                 path.string(), kind.name));
+    throw UsageError(fmt::format("{}: this file is there already, and is no {}; name another one with {}, or remove it",
+                                 path.string(), kind.name, kind.option));
   return path;
 }
 

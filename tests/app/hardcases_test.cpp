@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,20 @@ TEST_F(HardCases, ListShowAndJsonNameTheCases) {
 TEST_F(HardCases, APageIsWrittenWhereItIsAskedFor) {
   EXPECT_EQ(hardcases({"corner_hit", "--page", "cases.html"}).exit_code, 0);
   EXPECT_GT(std::filesystem::file_size(directory_.path() / "cases.html"), 100'000U);
+}
+
+TEST_F(HardCases, APageReplacesPagesOfItsKindAlone) {
+  const auto path = [&](const std::string& name) { return directory_.path() / name; };
+  std::ofstream(path("scene.toml")) << "title = \"mine\"\n";
+  std::ofstream(path("mine.html")) << "<p>mine</p>\n";
+  for (const std::string name : {"scene.toml", "mine.html", "."}) {
+    const Outcome outcome = hardcases({"corner_hit", "--page", name});
+    EXPECT_EQ(outcome.exit_code, 2) << name;
+    EXPECT_THAT(outcome.out, IsEmpty());
+    EXPECT_THAT(outcome.err, HasSubstr("--page"));
+  }
+  EXPECT_EQ(std::filesystem::file_size(path("mine.html")), 12U);
+  for (int k = 0; k < 2; ++k) EXPECT_EQ(hardcases({"corner_hit", "--page", "cases.html"}).exit_code, 0);
 }
 
 TEST_F(HardCases, AFixedStepMethodIsToldFromTheEngines) {

@@ -4,6 +4,7 @@
 #include "studies/hard_cases/hard_case.hpp"
 #include "studies/hard_cases/steps.hpp"
 #include "studies/hard_cases/table.hpp"
+#include "terminal/output_paths.hpp"
 #include "terminal/signals.hpp"
 #include "text/numbers.hpp"
 
@@ -13,12 +14,13 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
-#include <stdexcept>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace carom::cli {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -57,12 +59,6 @@ ExitCode in_steps(const HardCasesOptions& options, const std::vector<HardCase>& 
   return exit_done;
 }
 
-void write_cases_page(const std::string& path, const Page& page) {
-  std::ofstream file(path);
-  file << html_page(page);
-  if (!file.flush()) throw std::runtime_error(fmt::format("{}: cannot be written", path));
-}
-
 ExitCode exit_code_of(const std::vector<CaseVerdict>& verdicts) {
   const auto all = [&](auto&& holds) { return std::all_of(verdicts.begin(), verdicts.end(), holds); };
   if (!all([](const CaseVerdict& one) { return one.keeps_invariants(); })) return exit_invalid_state;
@@ -95,6 +91,8 @@ ExitCode hardcases(const HardCasesOptions& options, const Invocation& invocation
     return exit_done;
   }
   if (!options.method.empty()) return in_steps(options, cases);
+  const fs::path page =
+      options.page.empty() ? fs::path() : place_for_page(options.page, {}, {"page of hard cases", hard_cases_mark, "--page"});
   const bool as_it_goes = !options.json && !options.markdown;
   const StopRequest stop;
   std::vector<CaseVerdict> verdicts;
@@ -108,7 +106,7 @@ ExitCode hardcases(const HardCasesOptions& options, const Invocation& invocation
   if (as_it_goes) fmt::print("{}", hardcases_footer(verdicts));
   if (options.json) fmt::print("{}\n", hard_cases_json(verdicts));
   if (options.markdown) fmt::print("{}", hard_cases_markdown(verdicts));
-  if (!options.page.empty()) write_cases_page(options.page, hard_case_page(cases, verdicts, invocation.command_line));
+  if (!page.empty()) write_page(page, html_page(hard_case_page(cases, verdicts, invocation.command_line)));
   return exit_code_of(verdicts);
 }
 

@@ -139,7 +139,8 @@ TextTable table_of(std::span<const CaseVerdict> verdicts, const std::string& fam
 
 Page hard_case_page(std::span<const HardCase> cases, std::span<const CaseVerdict> verdicts, const std::string& command_line) {
   const auto held = std::count_if(verdicts.begin(), verdicts.end(), [](const CaseVerdict& one) { return one.holds(); });
-  Page page{.title = "Hard cases",
+  Page page{.generator = "carom hardcases",
+            .title = "Hard cases",
             .subtitle = summary_of(verdicts),
             .lead = always_checked(),
             .key_numbers = {{fmt::format("{} of {}", held, verdicts.size()), "cases hold"}}};

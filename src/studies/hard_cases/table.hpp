@@ -8,9 +8,13 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace carom {
+
+/// In the first 512 bytes of every page of hard cases.
+inline constexpr std::string_view hard_cases_mark = "<meta name=\"generator\" content=\"carom hardcases\">";
 
 /// One case in words.
 struct HardCaseRow {
