@@ -173,6 +173,18 @@ std::string first_extra(const CLI::App& program, const std::vector<std::string>&
   return found == words.end() ? std::string() : *found;
 }
 
+/// Refuses values that are there and say nothing, as of a variable of a shell that was never set: the parser takes them for
+/// options that were not given.
+void require_values(const CommandInfo& command, const std::vector<std::string>& words) {
+  for (const OptionInfo& option : command.options)
+    for (const std::string& name : option.names)
+      for (std::size_t k = 1; k < words.size(); ++k) {
+        const bool is_empty = words[k] == name + "=" || (words[k] == name && k + 1 < words.size() && words[k + 1].empty());
+        if (is_empty && !option.value.empty())
+          throw UsageError(fmt::format("{0}: its value is empty; give {0} {1}, or leave {0} out", name, option.value));
+      }
+}
+
 /// Returns what is wrong with a command line, where the parser does not take it and all its options are known. The parser's own
 /// messages name the option and hold the value; everything else in them is for programmers.
 std::string sentence_of(const CLI::ParseError& error, const CLI::App& program, const CommandInfo& command,
@@ -255,6 +267,7 @@ Action parse_arguments(int argc, char** argv) {
   const bool is_option = words.front().starts_with('-');
   if (!is_option && find_command(commands, words.front()) == nullptr)
     throw UsageError(fmt::format("{}: there is no such command; {}", words.front(), meant_command(commands, words)));
+  if (!is_option) require_values(command_called(commands, words.front()), words);
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help or --version
