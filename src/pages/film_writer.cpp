@@ -8,10 +8,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cerrno>
 #include <chrono>
+#include <cstdint>
 #include <cstdlib>
+#include <fstream>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -124,7 +128,11 @@ std::optional<std::filesystem::path> find_program(std::string_view name) {
 }
 
 FilmWriter::FilmWriter(const PartialFile& file, const FilmShape& shape, std::function<bool()> keep_going)
-    : path_(file.path()), keep_going_(std::move(keep_going)), complaints_(std::tmpfile()) {
+    : path_(file.path()),
+      partial_(file.partial_name()),
+      format_(shape.format),
+      keep_going_(std::move(keep_going)),
+      complaints_(std::tmpfile()) {
   const auto program = find_program("ffmpeg");
   if (!program) throw OutputError("there is no program ffmpeg, which films are made with; install the package ffmpeg");
   if (!complaints_) throw detail::system_error(P_tmpdir, "write a temporary file", errno);
@@ -185,8 +193,22 @@ bool FilmWriter::finish() {
     std::this_thread::sleep_for(poll_interval);
   }
   const int status = process_->wait();
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) fail();
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || !is_whole()) fail();
   return true;
+}
+
+/// Whether ffmpeg, which ends with 0 where its last bytes did not fit on the disk, has written the whole film. Of an MP4 it does
+/// not say so either: but its index is moved to the front at the very end, behind the first box.
+bool FilmWriter::is_whole() const {
+  if (format_ != FilmFormat::mp4) return first_line(complaints_.get()).empty();
+  std::ifstream film(partial_, std::ios::binary);
+  std::array<unsigned char, 8> box{};
+  const auto read_box = [&] { return static_cast<bool>(film.read(reinterpret_cast<char*>(box.data()), box.size())); };
+  if (!read_box()) return false;
+  std::uint32_t size = 0;
+  for (std::size_t k = 0; k < 4; ++k) size = size << 8 | box[k];
+  film.seekg(size);
+  return read_box() && std::equal(box.begin() + 4, box.end(), "moov");
 }
 
 }  // namespace carom

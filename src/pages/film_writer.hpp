@@ -48,7 +48,11 @@ class FilmWriter {
   [[noreturn]] void fail();
   void close_pipe();
 
-  std::filesystem::path path_;  ///< for messages
+  [[nodiscard]] bool is_whole() const;
+
+  std::filesystem::path path_;     ///< for messages
+  std::filesystem::path partial_;  ///< what ffmpeg writes
+  FilmFormat format_;
   std::function<bool()> keep_going_;
   std::unique_ptr<std::FILE, CloseFile> complaints_;  ///< standard error of ffmpeg
   int pipe_ = -1;

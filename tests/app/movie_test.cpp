@@ -203,6 +203,24 @@ TEST_F(MovieCommand, WhatFfmpegSaysWhenItGivesUpIsPassedOn) {
   }
 }
 
+/// On a full disk ffmpeg ends with 0: of an MP4 without a word and without an index, of others with one.
+TEST_F(MovieCommand, AFilmThatIsCutShortTakesTheNameOfNone) {
+  run_scene();
+  write_text(file("old"), "kept");
+  const std::string to_file = " > \"$(for last; do :; done; echo \"${last#file:}\")\"; ";
+  for (const auto& [film, script] : {std::pair{"film.mp4", "printf '\\000\\000\\000\\010ftyp\\000\\000\\000\\010mdat'" + to_file},
+                                     std::pair{"film.webm", "echo film" + to_file + "echo 'No space left on device' >&2"}}) {
+    make_ffmpeg("/bin/cat > /dev/null; " + script + "\nexit 0\n");
+    fs::copy_file(file("old"), file(film));
+    const Outcome outcome = carom_with_own_programs({"movie", "gas", "-o", film, "--force", "--size", "64", "--fps", "1"});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.out, IsEmpty());
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("ffmpeg could not write this film"), HasSubstr("check the disk")));
+    EXPECT_EQ(text_of(file(film)), "kept");
+    EXPECT_FALSE(fs::exists(file(std::string(film) + ".partial")));
+  }
+}
+
 TEST_F(MovieCommand, CtrlCEndsFfmpegAndLeavesNoFile) {
   run_scene();
   make_ffmpeg("echo $$ > started.new; /bin/mv started.new started; exec /bin/sleep 60\n");  // never reads a frame
@@ -223,10 +241,10 @@ TEST_F(MovieCommand, ProgressGoesToStandardError) {
   run_scene();
   make_ffmpeg("/bin/cat > /dev/null; echo film > \"$(for last; do :; done; echo \"${last#file:}\")\"\n");
   const Outcome outcome =
-      carom_with_own_programs({"movie", "gas", "-o", "film.mp4", "--size", "64", "--progress", "always", "--fps", "1"});
+      carom_with_own_programs({"movie", "gas", "-o", "film.webm", "--size", "64", "--progress", "always", "--fps", "1"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("drawing frame 1 of 11"));
-  EXPECT_THAT(outcome.out, StartsWith("film.mp4  "));
+  EXPECT_THAT(outcome.out, StartsWith("film.webm  "));
 }
 
 }  // namespace
