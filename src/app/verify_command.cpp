@@ -98,7 +98,9 @@ Recorded recorded(const fs::path& directory) {
 
 ExitCode run_again(const Recorded& run, const fs::path& scratch, const VerifyOptions& options, const Invocation& invocation) {
   const fs::path scene = scratch / "scene.toml";
-  std::ofstream(scene, std::ios::binary) << run.resolved_scene;
+  std::ofstream file(scene, std::ios::binary);
+  file << run.resolved_scene << std::flush;
+  if (!file) throw detail::system_error(scene, "write", errno);
   RunOptions again;
   again.scene.path = scene.string();
   again.out = (scratch / "again").string();

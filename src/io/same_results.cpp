@@ -153,6 +153,7 @@ std::string compare_summaries(const fs::path& one, const fs::path& other, const 
   if (several_cores)
     for (nlohmann::json* summary : {&a, &b})
       if (const auto numerics = summary->find("numerics"); numerics != summary->end()) numerics->erase("simultaneous");
+  if (!left_out.empty() && !a["observables"].is_object()) throw detail::no_summary(one.parent_path());
   for (const std::string& observable : left_out) a["observables"].erase(observable);
   if (!left_out.empty() && a["observables"].empty()) a.erase("observables");
   const nlohmann::json patch = nlohmann::json::diff(a, b);
