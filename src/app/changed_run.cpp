@@ -12,8 +12,11 @@
 #include <carom/simulation.hpp>
 
 #include <algorithm>
+#include <exception>
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
+#include <string>
 
 namespace carom::cli {
 
@@ -35,6 +38,7 @@ void require_only_what_it_has(const RunOptions& options) {
   refuse(options.threads != "auto", "--threads");
   refuse(options.scene.xyz, "--xyz");
   refuse(options.scene.events, "--events");
+  refuse(options.scene.unwrapped, "--unwrapped");
 }
 
 /// samples.csv, one line per disk and sample: the number of disks may change on the way.
@@ -71,8 +75,22 @@ class Samples {
   State state_;
 };
 
-/// Runs to `end` with the changes on the way; returns why it stopped before, or `time`.
-StopReason run_to(LiveRun& run, double end, const std::vector<Change>& changes, Samples* samples) {
+/// Makes a change of `file`. Throws UsageError where it cannot be made.
+void make(LiveRun& run, const Change& change, const std::string& file) {
+  const auto refuse = [&](const std::exception& error) {
+    throw UsageError(fmt::format("{}: the change at time {:g} cannot be made: {}", file, change.time, error.what()));
+  };
+  try {
+    run.apply(change);
+  } catch (const SceneError& error) {
+    refuse(error);
+  } catch (const std::invalid_argument& error) {
+    refuse(error);
+  }
+}
+
+/// Runs to `end` with the changes of `file` on the way; returns why it stopped before, or `time`.
+StopReason run_to(LiveRun& run, double end, const std::vector<Change>& changes, const std::string& file, Samples* samples) {
   const StopRequest stop;
   auto change = changes.begin();
   for (;;) {
@@ -85,7 +103,7 @@ StopReason run_to(LiveRun& run, double end, const std::vector<Change>& changes, 
     if (stopped == StopReason::events) continue;
     if (stopped != StopReason::time) return stopped;
     if (samples != nullptr && samples->next() <= target) samples->take(run);
-    if (change != changes.end() && change->time <= target) run.apply(*change++);
+    if (change != changes.end() && change->time <= target) make(run, *change++, file);
     const bool done = (change == changes.end() || change->time > end) && (samples == nullptr || samples->next() > end);
     if (target >= end && done) return StopReason::time;
   }
@@ -102,7 +120,7 @@ ExitCode run_with_changes(const RunOptions& options) {
   LiveRun run(scene);
   std::optional<Samples> samples;
   if (scene.output.csv && scene.run.sample_every) samples.emplace(options, scene);
-  const StopReason stopped = run_to(run, *scene.run.time, changes, samples ? &*samples : nullptr);
+  const StopReason stopped = run_to(run, *scene.run.time, changes, options.changes, samples ? &*samples : nullptr);
   if (samples) samples->finish();
 
   const std::size_t made = run.changes().size();

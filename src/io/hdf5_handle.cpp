@@ -2,6 +2,7 @@
 
 #include "io/hdf5_handle.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <functional>
@@ -75,6 +76,7 @@ herr_t innermost_reason(unsigned /*depth*/, const H5E_error2_t* error, void* rea
 void throw_hdf5_error() {
   std::string reason;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, innermost_reason, &reason);
+  reason.erase(std::min(reason.find('\n'), reason.size()));  // what follows is for those who write HDF5
   throw Hdf5Error(reason.empty() ? "HDF5 gives no reason" : reason);
 }
 

@@ -56,9 +56,10 @@ TEST_F(ChangedRun, WritesSamplesOfHoweverManyDisksThereAre) {
 
 TEST_F(ChangedRun, RefusesWrongListsAndOptionsOfOtherRuns) {
   write_text(file("wrong.toml"), "[[changes]]\ntime = 1\nremove_disk = 50\n");
-  refused({"run", "gas.toml", "--changes", "wrong.toml"}, "there is no disk 50");
+  refused({"run", "gas.toml", "--changes", "wrong.toml"}, "wrong.toml: the change at time 1 cannot be made: there is no disk 50");
   refused({"run", "gas.toml", "--changes", "nowhere.toml"}, "nowhere.toml");
   refused({"run", "gas.toml", "--changes", "some.toml", "--report"}, "--changes and --report do not go together");
+  refused({"run", "gas.toml", "--changes", "some.toml", "--csv", "--unwrapped"}, "--changes and --unwrapped");
   refused({"run", "gas.toml", "--changes", "some.toml", "--method", "naive"}, "--changes and --method");
 }
 

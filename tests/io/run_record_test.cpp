@@ -211,6 +211,9 @@ TEST_F(RunRecordTest, DamagedFilesAreRefusedInOneSentence) {
   write_text(run_ / "summary.json", summary);
   write_text(run_ / "trajectory.h5md", trajectory.substr(0, trajectory.size() / 2));
   EXPECT_THAT(refusal(), AllOf(HasSubstr("trajectory.h5md: "), HasSubstr("damaged or cut short")));
+  std::filesystem::remove(run_ / "trajectory.h5md");
+  std::filesystem::create_directory(run_ / "trajectory.h5md");
+  EXPECT_THAT(refusal(), HasSubstr("trajectory.h5md: this is a directory, and a file is to be there"));
 }
 
 }  // namespace
