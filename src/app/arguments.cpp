@@ -138,10 +138,7 @@ void require_known_options(const CommandInfo& command, const std::vector<std::st
     if (word == "--") return;
     if (word.size() < 2 || word[0] != '-' || std::isdigit(static_cast<unsigned char>(word[1])) != 0 || word[1] == '.') continue;
     const std::string name = word.substr(0, word.find('='));
-    const bool known =
-        name == "--help" || name == "--output" || std::ranges::any_of(command.options, [&](const OptionInfo& option) {
-          return std::ranges::find(option.names, name) != option.names.end();
-        });
+    const bool known = name == "--help" || name == "--output" || find_option(command, name) != nullptr;
     const bool is_letters = word[1] != '-' && (letters.find(word[1]) != std::string::npos || word[1] == 'h');
     if (known || is_letters) continue;
     throw UsageError(fmt::format("{}: carom {} has no such option; {}", name, command.name,
@@ -176,13 +173,14 @@ std::string first_extra(const CLI::App& program, const std::vector<std::string>&
 /// Refuses values that are there and say nothing, as of a variable of a shell that was never set: the parser takes them for
 /// options that were not given.
 void require_values(const CommandInfo& command, const std::vector<std::string>& words) {
-  for (const OptionInfo& option : command.options)
-    for (const std::string& name : option.names)
-      for (std::size_t k = 1; k < words.size(); ++k) {
-        const bool is_empty = words[k] == name + "=" || (words[k] == name && k + 1 < words.size() && words[k + 1].empty());
-        if (is_empty && !option.value.empty())
-          throw UsageError(fmt::format("{0}: its value is empty; give {0} {1}, or leave {0} out", name, option.value));
-      }
+  for (std::size_t k = 1; k < words.size(); ++k) {
+    if (words[k] == "--") return;
+    const bool ends_at_once = words[k].ends_with('=');
+    if (!ends_at_once && (k + 1 == words.size() || !words[k + 1].empty())) continue;
+    const std::string name = ends_at_once ? words[k].substr(0, words[k].size() - 1) : words[k];
+    if (const OptionInfo* const option = find_option(command, name); option != nullptr && !option->value.empty())
+      throw UsageError(fmt::format("{0}: its value is empty; give {0} {1}, or leave {0} out", name, option->value));
+  }
 }
 
 /// Returns what is wrong with a command line, where the parser does not take it and all its options are known. The parser's own
@@ -190,12 +188,11 @@ void require_values(const CommandInfo& command, const std::vector<std::string>& 
 std::string sentence_of(const CLI::ParseError& error, const CLI::App& program, const CommandInfo& command,
                         const std::vector<std::string>& words) {
   const std::string message = error.what();
-  const std::string explained = fmt::format("carom help {} explains it", command.name);
   const auto option_called = [&](const std::string& name) {
-    const auto found = std::ranges::find_if(
-        command.options, [&](const OptionInfo& option) { return std::ranges::find(option.names, name) != option.names.end(); });
-    return found == command.options.end() ? OptionInfo{} : *found;
+    const OptionInfo* const found = find_option(command, name);
+    return found == nullptr ? OptionInfo{} : *found;
   };
+  const std::string explained = fmt::format("carom help {} explains it", command.name);
   if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
     const CLI::Option* missing = program.get_subcommand(command.name)->get_option_no_throw(between(message, "", " is required"));
     if (missing != nullptr)

@@ -164,4 +164,10 @@ const CommandInfo* find_command(std::span<const CommandInfo> commands, std::stri
   return found == commands.end() ? nullptr : &*found;
 }
 
+const OptionInfo* find_option(const CommandInfo& command, std::string_view name) {
+  const auto found = std::ranges::find_if(
+      command.options, [&](const OptionInfo& option) { return std::ranges::find(option.names, name) != option.names.end(); });
+  return found == command.options.end() ? nullptr : &*found;
+}
+
 }  // namespace carom::cli

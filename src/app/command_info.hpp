@@ -45,6 +45,8 @@ struct CommandInfo {
 
 /// Returns the command of this name, or null.
 [[nodiscard]] const CommandInfo* find_command(std::span<const CommandInfo> commands, std::string_view name);
+/// Returns the option of a command with this name, "-o" or "--out", or null.
+[[nodiscard]] const OptionInfo* find_option(const CommandInfo& command, std::string_view name);
 
 /// Returns the words with their first letter in small, as a clause of a sentence.
 [[nodiscard]] std::string in_small(std::string words);

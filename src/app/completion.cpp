@@ -162,12 +162,6 @@ Candidates values_of(std::span<const CommandInfo> commands, const std::string& k
   return {};
 }
 
-const OptionInfo* option_called(const CommandInfo& command, const std::string& name) {
-  const auto found = std::ranges::find_if(
-      command.options, [&](const OptionInfo& option) { return std::ranges::find(option.names, name) != option.names.end(); });
-  return found == command.options.end() ? nullptr : &*found;
-}
-
 Candidates options_of(const CommandInfo& command, const Words& words) {
   Candidates found;
   for (const OptionInfo& option : command.options) {
@@ -194,7 +188,7 @@ Candidates candidates_for(std::span<const CommandInfo> commands, const Words& wo
     const OptionInfo* before = open;
     open = nullptr;
     if (words[k].starts_with('-') && words[k].size() > 1) {
-      const OptionInfo* option = option_called(*command, words[k]);
+      const OptionInfo* option = find_option(*command, words[k]);
       if (option != nullptr && !option->value.empty()) open = option;
     } else if (before == nullptr) {
       ++arguments;
@@ -202,7 +196,7 @@ Candidates candidates_for(std::span<const CommandInfo> commands, const Words& wo
   }
   if (open != nullptr && !(open->is_value_optional && typed.starts_with('-'))) return values_of(commands, open->value, words);
   if (const std::size_t sign = typed.find('='); typed.starts_with("--") && sign != std::string::npos) {
-    const OptionInfo* option = option_called(*command, typed.substr(0, sign));
+    const OptionInfo* option = find_option(*command, typed.substr(0, sign));
     if (option == nullptr) return {};
     const std::string name = typed.substr(0, sign + 1);
     Candidates found = values_of(commands, option->value, words);
