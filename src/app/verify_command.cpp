@@ -5,6 +5,7 @@
 #include "io/finished_run.hpp"
 #include "io/hdf5_handle.hpp"
 #include "io/output_error.hpp"
+#include "io/partial_file.hpp"
 #include "io/same_results.hpp"
 #include "terminal/output_paths.hpp"
 #include "terminal/processes.hpp"
@@ -21,7 +22,6 @@
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -98,9 +98,9 @@ Recorded recorded(const fs::path& directory) {
 
 ExitCode run_again(const Recorded& run, const fs::path& scratch, const VerifyOptions& options, const Invocation& invocation) {
   const fs::path scene = scratch / "scene.toml";
-  std::ofstream file(scene, std::ios::binary);
-  file << run.resolved_scene << std::flush;
-  if (!file) throw detail::system_error(scene, "write", errno);
+  PartialFile file(scene);
+  file.write(run.resolved_scene);
+  file.publish();
   RunOptions again;
   again.scene.path = scene.string();
   again.out = (scratch / "again").string();
