@@ -77,6 +77,7 @@ class FlightFrame {
 
     bool operator==(const DiskRest&) const = default;
   };
+  /// Writes it where it is to be: what rest_of() returns is put together first and then copied.
   void read_rest(std::int32_t i, DiskRest& rest) const {
     for (int k = 0; k < 2; ++k) rest.images[k] = images_.of(i, k);
     rest.steps = rests_.empty() ? std::array<StepRest, 2>{} : rests_[static_cast<std::size_t>(i)];

@@ -97,8 +97,8 @@ std::int32_t BoxDomain<Impact, Layout, World>::slot_for(std::int32_t disk) {
   return i;
 }
 
-/// Sees to it that so many slots are unused, or that the domain is crowded. It is that before the last slot is gone: to look for
-/// a few again and again would take as long as all slots each time.
+/// Sees to it that so many slots are unused; where that cannot be, the domain is crowded. It already is when few more can be had:
+/// each look for unused slots goes through all of them.
 template <class Impact, class Layout, class World>
 void BoxDomain<Impact, Layout, World>::reserve_slots(std::size_t most) {
   if (unused_.size() >= most) return;
@@ -357,7 +357,7 @@ void BoxDomain<Impact, Layout, World>::find_slots(std::span<const Message> messa
   };
   if (find()) return;
   recycle_slots();
-  crowded_ = !find();
+  if (!find()) crowded_ = true;
 }
 
 template <class Impact, class Layout, class World>

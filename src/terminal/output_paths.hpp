@@ -16,9 +16,9 @@ inline std::filesystem::path named_after(const std::string& directory, const cha
 }
 
 struct PageKind {
-  std::string_view name;  ///< "player"
-  std::string_view mark;  ///< mark in the first 512 bytes of every page of this kind
-  std::string_view option = "-o";
+  std::string_view name;           ///< "player"
+  std::string_view mark;           ///< mark in the first 512 bytes of every page of this kind
+  std::string_view option = "-o";  ///< option that names the place of the page
 };
 
 /// `output` as the user gave it, or `otherwise` where it is empty. Throws UsageError where a page cannot go there: it is called

@@ -13,7 +13,7 @@
 
 namespace carom {
 
-/// In the first 512 bytes of every page of hard cases.
+/// The mark of every page of hard cases, in its first 512 bytes.
 inline constexpr std::string_view hard_cases_mark = "<meta name=\"generator\" content=\"carom hardcases\">";
 
 /// One case in words.
