@@ -9,6 +9,7 @@
 #include "text/numbers.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <carom/simulation.hpp>
 
 #include <algorithm>
@@ -17,6 +18,8 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <system_error>
+#include <vector>
 
 namespace carom::cli {
 
@@ -41,6 +44,19 @@ void require_only_what_it_has(const RunOptions& options) {
   refuse(options.scene.unwrapped, "--unwrapped");
 }
 
+/// Names what the scene and the list of changes ask for and such a run has not.
+std::vector<std::string> left_out(const Scene& scene, const std::vector<Change>& changes, double end) {
+  std::vector<std::string> names;
+  if (scene.run.collisions) names.emplace_back("run.collisions");
+  if (!scene.observe.empty()) names.emplace_back("[observe]");
+  if (scene.output.csv && !scene.run.sample_every) names.emplace_back("output.csv, which needs run.sample_every");
+  if (scene.output.xyz) names.emplace_back("output.xyz");
+  if (scene.output.events) names.emplace_back("output.events");
+  const auto late = std::count_if(changes.begin(), changes.end(), [end](const Change& change) { return change.time > end; });
+  if (late > 0) names.push_back(counted(static_cast<std::size_t>(late), "change") + " after the end");
+  return names;
+}
+
 /// samples.csv, one line per disk and sample: the number of disks may change on the way.
 class Samples {
  public:
@@ -62,6 +78,12 @@ class Samples {
   void finish() {
     writer_.close();
     directory_.publish(file);
+  }
+  /// Removes what was written, because the list of changes is wrong.
+  void discard() {
+    std::error_code ignored;
+    std::filesystem::remove(directory_.partial_name(file), ignored);
+    directory_.discard_if_empty();
   }
   [[nodiscard]] std::string path() const { return directory_.final_name(file).string(); }
 
@@ -120,8 +142,15 @@ ExitCode run_with_changes(const RunOptions& options) {
   LiveRun run(scene);
   std::optional<Samples> samples;
   if (scene.output.csv && scene.run.sample_every) samples.emplace(options, scene);
-  const StopReason stopped = run_to(run, *scene.run.time, changes, options.changes, samples ? &*samples : nullptr);
+  StopReason stopped = StopReason::time;
+  try {
+    stopped = run_to(run, *scene.run.time, changes, options.changes, samples ? &*samples : nullptr);
+  } catch (const UsageError&) {
+    if (samples) samples->discard();
+    throw;
+  }
   if (samples) samples->finish();
+  const std::vector<std::string> missing = left_out(scene, changes, *scene.run.time);
 
   const std::size_t made = run.changes().size();
   if (options.json) {
@@ -132,6 +161,7 @@ ExitCode run_with_changes(const RunOptions& options) {
     json["pair_collisions"] = run.pairs();
     json["wall_collisions"] = run.walls();
     json["state_hash"] = run.hash();
+    json["left_out"] = missing;
     fmt::print("{}\n", json.dump(2));
   } else if (!options.quiet) {
     fmt::print("{} with {} of {}\n", options.scene.path, counted(made, "change"), options.changes);
@@ -140,6 +170,7 @@ ExitCode run_with_changes(const RunOptions& options) {
                counted(run.simulation().disks().count(), "disk"), grouped(run.walls()));
     if (samples) fmt::print("  {:<12}{}\n", "files", samples->path());
     fmt::print("  {:<12}{}\n", "state hash", run.hash());
+    if (!missing.empty()) fmt::print("  {:<12}{}\n", "left out", fmt::join(missing, ", "));
   }
   return stopped == StopReason::interrupted ? exit_interrupted : exit_done;
 }

@@ -54,6 +54,20 @@ TEST_F(ChangedRun, WritesSamplesOfHoweverManyDisksThereAre) {
   EXPECT_THAT(samples, AllOf(HasSubstr("\n0.5,49,"), Not(HasSubstr("\n1.5,49,")), HasSubstr("\n2,48,")));
 }
 
+TEST_F(ChangedRun, NamesWhatItLeavesOut) {
+  write_text(file("late.toml"), "[[changes]]\ntime = 1e6\nremove_disk = 7\n");
+  const Outcome outcome =
+      carom({"run", "gas.toml", "--changes", "late.toml", "--set", "run.collisions=9", "--set", "observe.speeds=true"});
+  EXPECT_THAT(outcome.out, HasSubstr("left out    run.collisions, [observe], 1 change after the end\n"));
+  EXPECT_TRUE(json_of({"run", "gas.toml", "--changes", "some.toml", "--json"})["left_out"].empty());
+}
+
+TEST_F(ChangedRun, LeavesNothingOfARunWhoseChangesAreWrong) {
+  write_text(file("wrong.toml"), "[[changes]]\ntime = 1\nremove_disk = 50\n");
+  refused({"run", "gas.toml", "--changes", "wrong.toml", "--csv"}, "there is no disk 50");
+  EXPECT_FALSE(fs::exists(file("gas")));
+}
+
 TEST_F(ChangedRun, RefusesWrongListsAndOptionsOfOtherRuns) {
   write_text(file("wrong.toml"), "[[changes]]\ntime = 1\nremove_disk = 50\n");
   refused({"run", "gas.toml", "--changes", "wrong.toml"}, "wrong.toml: the change at time 1 cannot be made: there is no disk 50");
