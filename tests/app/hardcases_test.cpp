@@ -77,11 +77,21 @@ TEST_F(HardCases, AFixedStepMethodIsToldFromTheEngines) {
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("two_pairs_at_once"), HasSubstr("not run: asks for"), HasSubstr("1 cases run")));
 }
 
+TEST_F(HardCases, CasesThatAnEngineDoesNotCoverAreCountedAndNeverHold) {
+  const Outcome some = hardcases({"corner_hit", "galperin_314159", "--engine", "textbook-float"});
+  EXPECT_EQ(some.exit_code, 0);
+  EXPECT_THAT(some.out, HasSubstr("2 cases, 1 not run, 1 runs"));
+  const Outcome none = hardcases({"galperin_314159", "--engine", "textbook-float"});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.err, HasSubstr("--engine textbook-float: this engine covers none of these cases"));
+}
+
 TEST_F(HardCases, WrongLinesExitTwoWithASentence) {
   using Line = std::vector<std::string>;
-  for (const Line& line :
-       {Line{"no_such_case"}, Line{"--family", "easy"}, Line{"--engine", "steam"}, Line{"--method", "leap"}, Line{"--dt", "0.1"},
-        Line{"--method", "naive", "--dt", "0"}, Line{"nowhere.toml"}, Line{"--show", "none"}}) {
+  for (const Line& line : {Line{"no_such_case"}, Line{"--family", "easy"}, Line{"--engine", "steam"}, Line{"--method", "leap"},
+                           Line{"--dt", "0.1"}, Line{"--method", "naive", "--dt", "0"}, Line{"--method", "naive", "--json"},
+                           Line{"--method", "naive", "--page", "a.html"}, Line{"--method", "naive", "--engine", "fast"},
+                           Line{"nowhere.toml"}, Line{"--show", "none"}}) {
     const Outcome outcome = hardcases(line);
     EXPECT_EQ(outcome.exit_code, 2) << line.front();
     EXPECT_THAT(outcome.out, IsEmpty());

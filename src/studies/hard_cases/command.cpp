@@ -45,6 +45,13 @@ void require_known(const HardCasesOptions& options) {
   if (options.dt && options.method.empty())
     throw UsageError("--dt is the step of a fixed-step method; give --method, or leave it out");
   if (options.dt && !(*options.dt > 0.0)) throw UsageError(fmt::format("--dt {:g}: a time step must be above zero", *options.dt));
+  const auto refuse_beside_method = [&](bool is_given, const char* option) {
+    if (is_given && !options.method.empty())
+      throw UsageError(fmt::format("--method and {} do not go together: a method is shown as a table or in Markdown", option));
+  };
+  refuse_beside_method(options.json, "--json");
+  refuse_beside_method(!options.page.empty(), "--page");
+  refuse_beside_method(options.engine != "auto", "--engine");
   const auto& families = hard_case_families();
   if (!options.family.empty() && std::find(families.begin(), families.end(), options.family) == families.end())
     throw UsageError(
@@ -99,14 +106,20 @@ ExitCode hardcases(const HardCasesOptions& options, const Invocation& invocation
   if (as_it_goes) fmt::print("{}", hardcases_header());
   for (const HardCase& one : cases) {
     verdicts.push_back(run_hard_case(one, options.engine, [&stop] { return !stop.made(); }));
+    if (stop.made()) {
+      fmt::print(stderr, "carom: interrupted in {}, after {} of {}\n", one.name, verdicts.size() - 1,
+                 counted(cases.size(), "case"));
+      return exit_interrupted;
+    }
     if (as_it_goes) fmt::print("{}", hardcases_row(verdicts.back()));
     if (as_it_goes) std::fflush(stdout);
-    if (stop.made()) return exit_interrupted;
   }
+  if (std::all_of(verdicts.begin(), verdicts.end(), [](const CaseVerdict& one) { return one.checks.empty(); }))
+    throw UsageError(fmt::format("--engine {}: this engine covers none of these cases; leave it out", options.engine));
   if (as_it_goes) fmt::print("{}", hardcases_footer(verdicts));
   if (options.json) fmt::print("{}\n", hard_cases_json(verdicts));
   if (options.markdown) fmt::print("{}", hard_cases_markdown(verdicts));
-  if (!page.empty()) write_page(page, html_page(hard_case_page(cases, verdicts, invocation.command_line)));
+  if (!page.empty()) write_whole_file(page, html_page(hard_case_page(cases, verdicts, invocation.command_line)));
   return exit_code_of(verdicts);
 }
 

@@ -65,9 +65,10 @@ std::string summary_of(std::span<const CaseVerdict> verdicts) {
     seconds += one.seconds;
   }
   const std::size_t failed = failures(verdicts);
-  return fmt::format("{} {}, {} runs, {} checks: {}; {:.3g} s", verdicts.size(), verdicts.size() == 1 ? "case" : "cases", runs,
-                     checks, failed == 0 ? "all hold" : fmt::format("{} {}", failed, failed == 1 ? "case fails" : "cases fail"),
-                     seconds);
+  const auto not_run = std::count_if(verdicts.begin(), verdicts.end(), [](const auto& one) { return one.checks.empty(); });
+  return fmt::format("{} {}, {}{} runs, {} checks: {}; {:.3g} s", verdicts.size(), verdicts.size() == 1 ? "case" : "cases",
+                     not_run > 0 ? fmt::format("{} not run, ", not_run) : "", runs, checks,
+                     failed == 0 ? "all hold" : fmt::format("{} {}", failed, failed == 1 ? "case fails" : "cases fail"), seconds);
 }
 
 std::string always_checked() {
