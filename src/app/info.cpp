@@ -83,12 +83,19 @@ std::string describe_checkpoint(const fs::path& path) {
 }
 
 std::string describe_directory(const fs::path& path) {
-  std::string text;
+  std::string text, fault;
+  const auto describe = [&](const fs::path& file) {
+    try {
+      text += describe_file(file);
+    } catch (const OutputError& error) {
+      if (fault.empty()) fault = error.what();
+    }
+  };
   for (const std::string_view product : detail::sweep_products) {
     std::error_code error;
-    if (fs::exists(path / product, error)) text += describe_file(path / product);
+    if (fs::exists(path / product, error)) describe(path / product);
   }
-  if (text.empty()) text = detail::describe_runs_of_sweep(path);
+  if (text.empty() && fault.empty()) text = detail::describe_runs_of_sweep(path);
   for (const std::string_view product : run_products) {
     if (product.starts_with("observe_") || product.ends_with(".html"))
       continue;  // the summary describes them, and a page needs no description
@@ -97,10 +104,13 @@ std::string describe_directory(const fs::path& path) {
       const bool unfinished_checkpoint = file.extension() == partial_ending && product.starts_with("checkpoint");
       if (unfinished_checkpoint || !fs::exists(file, error)) continue;
       const bool of_samples = product.ends_with(".xyz") || product.ends_with(".csv");
-      text += of_samples && fs::file_size(file, error) == 0 ? fmt::format("{}: no sample was written\n", file.string())
-                                                            : describe_file(file);
+      if (of_samples && fs::file_size(file, error) == 0)
+        text += fmt::format("{}: no sample was written\n", file.string());
+      else
+        describe(file);
     }
   }
+  if (!fault.empty()) throw PartlyDescribed(fault, text);
   if (text.empty()) {
     throw OutputError(
         fmt::format("{}: this directory holds no results of Carom; name a directory that carom run or "
@@ -166,7 +176,14 @@ ExitCode info(const InfoOptions& options, const Invocation& invocation) {
   }
   return in_reading_process(options.file, [&] {
     const ReadingLimit limit(options.file);
-    fmt::print("{}", as_usage_error([&] { return describe_file(options.file); }));
+    as_usage_error([&] {
+      try {
+        fmt::print("{}", describe_file(options.file));
+      } catch (const PartlyDescribed& partly) {
+        fmt::print("{}", partly.text);
+        throw;
+      }
+    });
     return exit_done;
   });
 }

@@ -101,6 +101,17 @@ TEST_F(Info, DescribesARunDirectoryFileByFile) {
                                          HasSubstr("samples.csv: "), HasSubstr("summary.json: ")));
 }
 
+TEST_F(Info, DescribesWhatIsWholeInADirectoryWithADamagedFile) {
+  write_text(out_ / "checkpoint.h5", "carom checkpoint\nand no more");
+  try {
+    (void)describe_file(out_);
+    ADD_FAILURE() << "the damaged checkpoint was described";
+  } catch (const PartlyDescribed& partly) {
+    EXPECT_THAT(partly.what(), HasSubstr("checkpoint.h5: this checkpoint is damaged"));
+    EXPECT_THAT(partly.text, AllOf(HasSubstr("trajectory.h5md: "), HasSubstr("summary.json: ")));
+  }
+}
+
 TEST_F(Info, DescribesARunDirectoryWithoutASample) {
   // A run that ends while it equilibrates, or that is killed at once, leaves a file of no frames.
   write_text(out_ / "trajectory.xyz", "");
