@@ -2,6 +2,7 @@
 
 #include "app/commands.hpp"
 #include "scene/presets.hpp"
+#include "terminal/output_paths.hpp"
 #include "text/numbers.hpp"
 
 #include <fmt/format.h>
@@ -9,9 +10,10 @@
 #include <carom/scene.hpp>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
+#include <filesystem>
+#include <string>
+#include <system_error>
+#include <vector>
 
 namespace carom::cli {
 
@@ -23,18 +25,6 @@ void list_presets() {
   for (const std::string& name : preset_names()) {
     fmt::print("{:<{}}  {}\n", name, width, parse_scene(preset(name), name).title);
   }
-}
-
-/// With `force` an existing file is replaced. Without it, exclusive creation never overwrites a file of another process.
-void write_file(const std::string& path, const std::string& text, bool force) {
-  std::FILE* file = std::fopen(path.c_str(), force ? "w" : "wx");
-  if (file == nullptr) {
-    if (errno == EEXIST) throw UsageError(fmt::format("{}: exists already; --force replaces it, -o FILE writes elsewhere", path));
-    throw UsageError(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
-  }
-  const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  if (std::fclose(file) != 0 || !written)
-    throw std::runtime_error(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
 }
 
 }  // namespace
@@ -54,7 +44,10 @@ ExitCode init(const InitOptions& options, const Invocation& invocation) {
     return exit_done;
   }
   const std::string path = options.file.empty() ? options.preset + ".toml" : options.file;
-  write_file(path, text, options.force);
+  std::error_code error;
+  if (!options.force && std::filesystem::exists(std::filesystem::symlink_status(path, error)))
+    throw UsageError(fmt::format("{}: exists already; --force replaces it, -o FILE writes elsewhere", path));
+  write_whole_file(path, text);
   if (!options.quiet) fmt::print("{} is written. Look into it, then: {} run {}\n", path, invocation.program, shell_quoted(path));
   return exit_done;
 }

@@ -1,14 +1,14 @@
 #include "app/manual_viewer.hpp"
 
+#include "terminal/output_paths.hpp"
+
 #include <fmt/format.h>
 
 #include <unistd.h>
 
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <system_error>
 
 namespace carom::cli {
 
@@ -24,14 +24,10 @@ ExitCode show_manual_page(const std::string& text) {
 }
 
 ExitCode write_manual_pages(const std::string& directory, const std::vector<ManualPage>& pages) {
-  std::filesystem::create_directories(directory);
-  for (const ManualPage& page : pages) {
-    const std::filesystem::path path = std::filesystem::path(directory) / page.file;
-    std::ofstream file(path, std::ios::binary);
-    file << page.text;
-    file.close();
-    if (!file) throw UsageError(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno)));
-  }
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error) throw UsageError(fmt::format("{}: this directory cannot be made: {}", directory, error.message()));
+  for (const ManualPage& page : pages) write_whole_file(std::filesystem::path(directory) / page.file, page.text);
   return exit_done;
 }
 

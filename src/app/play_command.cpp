@@ -27,7 +27,7 @@ fs::path default_place(const PlayOptions& options) { return fs::path(options.dir
 ExitCode write_player(const PlayOptions& options) {
   const PlayerData data = read_player(options.directory);
   const fs::path path = place_for_page(options.output, default_place(options), {"player", player_mark});
-  write_page(path, player_page(data));
+  write_whole_file(path, player_page(data));
   if (options.quiet) return exit_done;
   fmt::print("{}  {}, {}\n", path.string(), size(static_cast<double>(fs::file_size(path))),
              data.exact ? "an exact replay, from collision to collision"

@@ -71,7 +71,7 @@ ExitCode playground(const PlaygroundOptions& options) {
   if (place == std::string::npos)
     throw UsageError("the built page of the playground is damaged; ./bootstrap playground builds it anew");
   page.replace(place + place_for_scenes.size() - 3, 2, in_script(scenes));
-  write_page(output, page);
+  write_whole_file(output, page);
   if (!options.quiet)
     fmt::print("{}  {}, {}; open it in a browser, no network is needed\n", output.string(),
                size(static_cast<double>(page.size())),

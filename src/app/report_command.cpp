@@ -30,7 +30,7 @@ ExitCode report(const ReportOptions& options) {
   const ExitCode code = in_reading_process(options.directory, [&] {
     const ReportFile file = read_report(options.directory);
     const fs::path path = place_for_page(options.output, otherwise, {"report", report_mark});
-    write_page(path, file.html);
+    write_whole_file(path, file.html);
     if (!options.quiet) fmt::print("{}  {}, {}\n", path.string(), size(static_cast<double>(fs::file_size(path))), file.player);
     return exit_done;
   });

@@ -1,5 +1,7 @@
 #include "io/partial_file.hpp"
 
+#include <fmt/format.h>
+
 #include <cerrno>
 #include <fstream>
 #include <system_error>
@@ -10,6 +12,9 @@ namespace carom {
 namespace fs = std::filesystem;
 
 PartialFile::PartialFile(fs::path path) : path_(std::move(path)), partial_(path_.string() + ".partial") {
+  std::error_code error;
+  if (fs::exists(path_, error) && !fs::is_regular_file(path_, error))
+    throw OutputError(fmt::format("{}: this is no file that could be replaced; name another one", path_.string()));
   if (!std::ofstream(partial_, std::ios::binary)) throw detail::system_error(path_, "write", errno);
 }
 

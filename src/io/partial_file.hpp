@@ -10,7 +10,7 @@ namespace carom {
 
 class PartialFile {
  public:
-  /// Makes NAME.partial, empty. Throws OutputError where that cannot be.
+  /// Makes NAME.partial, empty. Throws OutputError where that cannot be, and where NAME is there and is no regular file.
   explicit PartialFile(std::filesystem::path path);
   PartialFile(const PartialFile&) = delete;
   PartialFile& operator=(const PartialFile&) = delete;

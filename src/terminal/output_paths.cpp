@@ -24,6 +24,14 @@ bool is_page(const fs::path& path, std::string_view mark) {
 
 }  // namespace
 
+fs::path named_after(const std::string& directory, const char* word) {
+  fs::path name = fs::path(directory).lexically_normal();
+  if (!name.has_filename()) name = name.parent_path();
+  if (name.filename() == "." || name.filename() == "..") name = fs::weakly_canonical(name);
+  name += word;
+  return name;
+}
+
 fs::path place_for_page(const std::string& output, const fs::path& otherwise, const PageKind& kind) {
   const fs::path path = output.empty() ? otherwise : fs::path(output);
   if (path.extension() != ".html" && path.extension() != ".htm")
@@ -38,7 +46,7 @@ fs::path place_for_page(const std::string& output, const fs::path& otherwise, co
   return path;
 }
 
-void write_page(const fs::path& path, const std::string& text) {
+void write_whole_file(const fs::path& path, const std::string& text) {
   PartialFile file = as_usage_error([&] { return PartialFile(path); });
   file.write(text);
   file.publish();

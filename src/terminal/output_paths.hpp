@@ -7,13 +7,9 @@
 
 namespace carom::cli {
 
-/// Returns the path of a directory with a suffix behind its name: of "runs/gas/" and "-again", runs/gas-again.
-inline std::filesystem::path named_after(const std::string& directory, const char* word) {
-  const std::filesystem::path name = std::filesystem::path(directory).lexically_normal();
-  std::filesystem::path beside = name.has_filename() ? name : name.parent_path();
-  beside += word;
-  return beside;
-}
+/// Returns the path of a directory with a suffix behind its name: of "runs/gas/" and "-again", runs/gas-again. A path that ends
+/// in "." or ".." names its directory only after links are followed.
+[[nodiscard]] std::filesystem::path named_after(const std::string& directory, const char* word);
 
 struct PageKind {
   std::string_view name;           ///< "player"
@@ -28,6 +24,6 @@ struct PageKind {
 
 /// Under its own name only when it is whole. Throws UsageError where the place cannot be written to, OutputError where writing
 /// fails later.
-void write_page(const std::filesystem::path& path, const std::string& text);
+void write_whole_file(const std::filesystem::path& path, const std::string& text);
 
 }  // namespace carom::cli

@@ -59,6 +59,11 @@ TEST_F(AnalyzeCommand, ReplacesNothingUnasked) {
   EXPECT_FALSE(std::filesystem::exists(file("gas-analysis/observe_speeds.csv"))) << "another analysis' table must not stay";
 }
 
+TEST_F(AnalyzeCommand, WithinADirectoryItWritesBesideIt) {
+  EXPECT_EQ(run_program(file("gas"), {CAROM_PROGRAM, "analyze", ".", "-q"}).exit_code, 0);
+  EXPECT_EQ(numbers("gas-analysis/analysis.json"), numbers("gas/summary.json"));
+}
+
 TEST_F(AnalyzeCommand, RefusesInOneSentenceAndWritesNothing) {
   refused({"analyze", "gas", "presure"},
           "carom: gas: presure=true: [observe] has no key \"presure\"; did you mean \"pressure\"?");

@@ -175,6 +175,7 @@ TEST(InitCommand, NeverReplacesAFileUnasked) {
   EXPECT_EQ(text_of(directory.path() / "box.toml"), "mine");
   EXPECT_EQ(run_carom(directory.path(), {"init", "--force"}).exit_code, 0);
   EXPECT_NE(text_of(directory.path() / "box.toml"), "mine");
+  EXPECT_EQ(run_carom(directory.path(), {"init", "--force", "-o", "/dev/null"}).exit_code, 2);
 }
 
 TEST(InitCommand, EveryPresetIsListedAndPassesCheck) {
