@@ -40,6 +40,10 @@ void FinishedParts::add(const std::string& line) {
 void read_finished_parts(const std::filesystem::path& path, const PartWords& words, const std::string& key,
                          const std::function<void(const Json& part)>& take) {
   std::ifstream file(path);
+  if (!file && errno == ENOENT)
+    throw OutputError(
+        fmt::format("{}: there is no such file, so that no {} is finished to go on from; leave out --resume to begin",
+                    path.string(), words.part));
   if (!file) throw system_error(path, "read it", errno);
   bool ours = false;
   std::size_t line_number = 0;

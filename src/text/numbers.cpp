@@ -124,7 +124,7 @@ std::optional<double> clock_time(std::string_view text) {
   double seconds = 0.0;
   for (int part = 0; part < 3; ++part) {
     const std::optional<double> number = take_number(text);
-    if (!number) return std::nullopt;
+    if (!number || (part > 0 && *number >= 60.0)) return std::nullopt;
     seconds = 60.0 * seconds + *number;
     if (text.empty()) return seconds;
     if (!text.starts_with(':')) return std::nullopt;

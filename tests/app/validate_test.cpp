@@ -45,7 +45,7 @@ TEST_F(ValidateCommand, WhatMakesNoSenseIsRefusedInOneSentence) {
            {{"--force", "--resume"}, "--force begins anew and --resume goes on"},
            {{"--only", "pressure-7"},
             "--only pressure-7: there is no such trial and no such group; carom validate --list names them all"},
-           {{"--resume", "--only", "equipartition-walls"}, "trials.jsonl"},
+           {{"--resume", "--only", "equipartition-walls"}, "trials.jsonl: there is no such file, so that no trial is finished"},
            {{"--seed", "-1"}, "--seed"}}) {
     const Outcome outcome = validate(arguments);
     EXPECT_EQ(outcome.exit_code, 2) << sentence;

@@ -48,11 +48,7 @@ std::filesystem::path directory_for(const CompareCommandOptions& options) {
 
 Comparison earlier_points(const RunDirectory& directory, const std::string& key, const CompareCommandOptions& options) {
   if (!options.resume) return {};
-  try {
-    return load_points(directory.final_name("points.jsonl"), key);
-  } catch (const OutputError& error) {
-    throw UsageError(error.what());
-  }
+  return as_usage_error([&] { return load_points(directory.final_name("points.jsonl"), key); });
 }
 
 /// The user's own trajectory, against exact events.

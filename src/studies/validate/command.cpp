@@ -29,11 +29,7 @@ constexpr std::array<std::string_view, 3> validation_products = {"trials.jsonl",
 
 Validation earlier_trials(const RunDirectory& directory, const std::string& key, const ValidateCommandOptions& options) {
   if (!options.resume) return {};
-  try {
-    return load_trials(directory.final_name("trials.jsonl"), key);
-  } catch (const OutputError& error) {
-    throw UsageError(error.what());
-  }
+  return as_usage_error([&] { return load_trials(directory.final_name("trials.jsonl"), key); });
 }
 
 std::string list() {
