@@ -122,7 +122,8 @@ class Observation {
   /// moved. Throws SceneError for an observable that has no meaning in the scene.
   explicit Observation(const Simulation& simulation);
   /// Makes the observables of a simulation that was restored, and continues them from what save() wrote into `saved`. Observables
-  /// that add() brings, in the same order as before, are continued too.
+  /// that add() brings, in the same order as before, are continued too. Throws std::runtime_error where the bytes are not those
+  /// that were written.
   Observation(const Simulation& simulation, std::istream& saved);
   ~Observation();
   Observation(const Observation&) = delete;

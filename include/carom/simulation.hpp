@@ -333,7 +333,8 @@ struct RunHooks {
   /// Every few thousand events, after all that has happened so far was handed on; and when the run ends.
   std::function<void(const SavingMoment& moment)> checkpoint;
   /// The bytes that SavingMoment::save() wrote: the schedule goes on from there, without `start`. Requires the grids of then,
-  /// in their order; others may follow, or may have followed, and are taken up at the next of their times.
+  /// in their order; others may follow, or may have followed, and are taken up at the next of their times. Where the bytes are
+  /// not those that were written, run_schedule() throws std::runtime_error.
   std::istream* resume = nullptr;
 };
 

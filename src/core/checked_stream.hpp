@@ -102,4 +102,23 @@ class CheckedReading final : public std::streambuf {
   bool ended_ = false;
 };
 
+/// Calls `write` with a stream, whose bytes go to `out` in checked pieces.
+template <class Write>
+void write_checked(std::ostream& out, Write write) {
+  CheckedWriting checked(out);
+  std::ostream within(&checked);
+  write(within);
+  checked.finish();
+}
+
+/// Calls `read` with a stream of what write_checked() has written to `in`. Throws std::runtime_error where that has changed or is
+/// cut short, and where `read` leaves something over.
+template <class Read>
+void read_checked(std::istream& in, Read read) {
+  CheckedReading checked(in);
+  std::istream within(&checked);
+  read(within);
+  if (!checked.at_end()) throw std::runtime_error("there is more than what was to be read");
+}
+
 }  // namespace carom

@@ -1,6 +1,7 @@
 #include "observe/observable_group.hpp"
 
 #include "core/archive.hpp"
+#include "core/checked_stream.hpp"
 #include "observe/drift.hpp"
 #include "observe/equilibrium.hpp"
 #include "observe/observables.hpp"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <sstream>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
 
@@ -161,28 +163,36 @@ std::vector<Measurement> ObservableGroup::results(double time, const Totals& tot
 }
 
 void ObservableGroup::save(std::ostream& out) const {
-  SavingArchive archive(out);
-  archive(run_.time, run_.temperature, run_.mean_free_time, started_, meter_, static_cast<std::uint64_t>(changes_));
-  std::ostringstream stream;
-  if (stream_) {
-    SavingArchive of_stream(stream);
-    of_stream(*stream_);
-  }
-  archive(stream.str(), static_cast<std::uint64_t>(observables_.size()));
-  for (const auto& observable : observables_) {
-    std::ostringstream gathered;
-    observable->save(gathered);
-    archive(gathered.str());
-  }
+  write_checked(out, [this](std::ostream& within) {
+    SavingArchive archive(within);
+    archive(run_.time, run_.temperature, run_.mean_free_time, started_, meter_, static_cast<std::uint64_t>(changes_));
+    std::ostringstream stream;
+    if (stream_) {
+      SavingArchive of_stream(stream);
+      of_stream(*stream_);
+    }
+    archive(stream.str(), static_cast<std::uint64_t>(observables_.size()));
+    for (const auto& observable : observables_) {
+      std::ostringstream gathered;
+      observable->save(gathered);
+      archive(gathered.str());
+    }
+  });
 }
 
 void ObservableGroup::load(std::istream& saved) {
-  LoadingArchive archive(saved);
-  std::uint64_t changes = 0, observables = 0;
-  archive(run_.time, run_.temperature, run_.mean_free_time, started_, meter_, changes, saved_stream_, observables);
-  changes_ = changes;
-  saved_.resize(observables);
-  for (std::string& gathered : saved_) archive(gathered);
+  try {
+    read_checked(saved, [this](std::istream& within) {
+      LoadingArchive archive(within);
+      std::uint64_t changes = 0, observables = 0;
+      archive(run_.time, run_.temperature, run_.mean_free_time, started_, meter_, changes, saved_stream_, observables);
+      changes_ = changes;
+      saved_.resize(observables);
+      for (std::string& gathered : saved_) archive(gathered);
+    });
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(fmt::format("the observables cannot be continued: {}", error.what()));
+  }
 }
 
 }  // namespace carom

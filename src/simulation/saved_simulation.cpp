@@ -114,17 +114,16 @@ void Simulation::save(std::ostream& out) const {
   const Parts& parts = *parts_;
   const std::string now = detail::lasting_text(parts.scene);
   out << head() << '\n';
-  CheckedWriting checked(out);
-  std::ostream within(&checked);
-  SavingArchive archive(within);
-  archive(parts.made_of.value_or(now), now, Changed(parts.scene));
-  archive(parts.engine_name, parts.engine_asked, parts.engine_reason, parts.time_step, parts.stiffness, has_collision_rule(),
-          parts.clock_began);
-  archive(parts.continuation.wall_draws, parts.continuation.thermostat_events, state());
-  parts.engine->save(archive);
-  archive(parts.standstill.has_value());
-  if (parts.standstill) archive(*parts_->standstill);
-  checked.finish();
+  write_checked(out, [&](std::ostream& within) {
+    SavingArchive archive(within);
+    archive(parts.made_of.value_or(now), now, Changed(parts.scene));
+    archive(parts.engine_name, parts.engine_asked, parts.engine_reason, parts.time_step, parts.stiffness, has_collision_rule(),
+            parts.clock_began);
+    archive(parts.continuation.wall_draws, parts.continuation.thermostat_events, state());
+    parts.engine->save(archive);
+    archive(parts.standstill.has_value());
+    if (parts.standstill) archive(*parts_->standstill);
+  });
 }
 
 /// An engine is made for the state that was saved, and then told what the state does not show.

@@ -6,6 +6,7 @@
 
 #include "core/all_events.hpp"
 #include "core/archive.hpp"
+#include "core/checked_stream.hpp"
 #include "core/seconds.hpp"
 #include "scene/checks.hpp"
 #include "simulation/disk_table.hpp"
@@ -14,6 +15,8 @@
 #include "simulation/parts.hpp"
 #include "simulation/sampling_times.hpp"
 #include "simulation/standstill.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
@@ -178,8 +181,14 @@ class Schedule {
   }
 
   void restore() {
-    LoadingArchive archive(*hooks_.resume);
-    archive(*this);
+    try {
+      read_checked(*hooks_.resume, [this](std::istream& within) {
+        LoadingArchive archive(within);
+        archive(*this);
+      });
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(fmt::format("the schedule cannot go on: {}", error.what()));
+    }
     record_events(recording_ || (measuring_ && hooks_.stop_when));
     if (measuring_) listen();
   }
@@ -215,8 +224,10 @@ class Schedule {
 
   [[nodiscard]] SavingMoment saving_moment(bool ended) {
     return {progress(), ended, [this](std::ostream& out) {
-              SavingArchive archive(out);
-              archive(*this);
+              write_checked(out, [this](std::ostream& within) {
+                SavingArchive archive(within);
+                archive(*this);
+              });
             }};
   }
 

@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <optional>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -221,6 +222,43 @@ Ended run_to_its_end(const Scene& scene, const std::optional<FixedStep>& step, c
   EXPECT_TRUE(step || simulation.time() == *scene.run.time);  // a fixed step is taken at its own product
   ended.state = simulation.state();
   return ended;
+}
+
+/// What is thrown where a run is resumed from these bytes; empty where nothing is.
+std::string refusal_of(const Scene& scene, const Saved& saved) {
+  std::istringstream simulation(saved.simulation), schedule(saved.schedule), observables(saved.observables);
+  Simulation restored = restore_simulation(scene, simulation);
+  try {
+    Observation observation(restored, observables);
+    RunHooks hooks;
+    hooks.resume = &schedule;
+    observation.attach(hooks);
+    (void)run_schedule(restored, hooks);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ResumedSchedule, ChangedAndMissingBytesAreFoundBeforeAnyIsUsed) {
+  const Scene scene = parse_scene(fluid);
+  Simulation killed = make_simulation(scene);
+  Observation observation(killed);
+  Saved saved;
+  (void)run_observed(killed, observation, 2, &saved, nullptr);
+  ASSERT_EQ(refusal_of(scene, saved), "");
+  for (std::string Saved::*part : {&Saved::schedule, &Saved::observables}) {
+    const std::size_t size = (saved.*part).size(), stride = size / 100 + 1;
+    const char* sentence = part == &Saved::schedule ? "the schedule cannot go on: " : "the observables cannot be continued: ";
+    for (std::size_t at = 0; at < size; at += stride) {
+      Saved changed = saved;
+      (changed.*part)[at] = static_cast<char>((changed.*part)[at] ^ 0x10);
+      EXPECT_EQ(refusal_of(scene, changed).find(sentence), 0U) << "byte " << at << " of " << size;
+      Saved shorter = saved;
+      (shorter.*part).resize(at);
+      EXPECT_EQ(refusal_of(scene, shorter).find(sentence), 0U) << at << " bytes of " << size;
+    }
+  }
 }
 
 TEST(ResumedSchedule, EndsAtANewEndAsIfItHadBeenTheFirst) {
