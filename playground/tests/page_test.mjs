@@ -31,8 +31,6 @@ const notice = () => ask("document.getElementById('notice').hidden ? '' : docume
 const errors = async () => [...browser.errors, await ask("document.documentElement.dataset.errors")].filter(Boolean).join(" | ");
 const clear = () => ask("document.getElementById('notice').hidden = true");
 const time = () => ask("carom.run.numbers[0]");
-const inScene = (x, y) =>
-  ask(`(() => { const r = document.getElementById("overlay").getBoundingClientRect(); return [r.left + r.width * ${x}, r.top + r.height * ${y}]; })()`);
 /// The pixel of a place of the scene.
 const pixelOf = (x, y) =>
   ask(`(() => { const r = document.getElementById("overlay").getBoundingClientRect(), [l, b] = carom.run.description.lower, [u, t] = carom.run.description.upper;

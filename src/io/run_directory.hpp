@@ -73,9 +73,6 @@ class RunDirectory {
   [[nodiscard]] std::filesystem::path final_name(std::string_view product) const;    ///< DIR/trajectory.h5md
   [[nodiscard]] std::filesystem::path partial_name(std::string_view product) const;  ///< DIR/trajectory.h5md.partial
 
-  /// Was the directory made by this object?
-  [[nodiscard]] bool created() const { return !created_.empty(); }
-
   /// Renames the files that grow with a run back to the names of unfinished files, and removes the results of the run's end.
   /// Throws OutputError.
   void take_back() const;

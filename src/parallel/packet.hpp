@@ -32,10 +32,6 @@ class Packet {
     put(static_cast<std::uint64_t>(records.size()));
     put_all(std::span<const Record>(records));
   }
-  void put_text(std::string_view text) {
-    put(static_cast<std::uint64_t>(text.size()));
-    bytes_.append(text);
-  }
 
   [[nodiscard]] std::string& bytes() { return bytes_; }
 
@@ -65,10 +61,6 @@ class PacketReader {
   template <class Record>
   void take_list(std::vector<Record>& records) {
     take_all(take<std::uint64_t>(), records);
-  }
-  [[nodiscard]] std::string_view take_text() {
-    const std::size_t size = take<std::uint64_t>();
-    return bytes_.substr(std::exchange(at_, at_ + size), size);
   }
 
  private:

@@ -30,7 +30,6 @@ std::string message_of(const std::function<void()>& action) {
 TEST(RunDirectory, IsCreatedWithItsParents) {
   const TemporaryDirectory temporary;
   const RunDirectory directory(temporary.path() / "a" / "b", false);
-  EXPECT_TRUE(directory.created());
   EXPECT_TRUE(fs::is_directory(temporary.path() / "a" / "b"));
   EXPECT_EQ(directory.final_name("summary.json"), temporary.path() / "a" / "b" / "summary.json");
   EXPECT_EQ(directory.partial_name("summary.json"), temporary.path() / "a" / "b" / "summary.json.partial");
@@ -47,7 +46,6 @@ TEST(RunDirectory, ASlashAtTheEndOfTheNameChangesNothing) {
 TEST(RunDirectory, CheckingThatItIsWritableLeavesNothingBehind) {
   const TemporaryDirectory temporary;
   const RunDirectory directory(temporary.path(), false);
-  EXPECT_FALSE(directory.created());
   EXPECT_TRUE(fs::is_empty(temporary.path()));
 }
 
