@@ -65,7 +65,7 @@ class Blocking:
         return self._core.samples
 
     def estimate(self, unit: str = "", step: float | None = None) -> Number:
-        """Returns mean and standard error. `step` is the time between samples, from which the decorrelation time follows."""
+        """Returns mean and standard error. `step` is the time between samples, from which the integrated correlation time follows."""
         found = self._core.estimate()
         if found is None:
             return Number(math.nan, unit=unit, note="there are no samples")
@@ -137,7 +137,7 @@ class Observable:
                 columns = [(c, found.units.get(c, ""), [float(v) for v in found[c]]) for c in found]
                 tables.append((name, columns))
             elif isinstance(found, Number):
-                scalars.append((name, found.value, found.error, found.unit, found.decorrelation_time, found.note))
+                scalars.append((name, found.value, found.error, found.unit, found.integrated_correlation_time, found.note))
             else:
                 scalars.append((name, _float(found, f"{self.name}.{name}"), None, "", None, ""))
         return scalars, tables

@@ -46,7 +46,7 @@ class Number:
         value: nan where the number has no meaning in this run; `note` then says why.
         error: the standard error, which allows for correlations; None where the run is too short to tell.
         unit: in units of the scene, such as "energy"; empty for a pure number.
-        decorrelation_time: the integrated correlation time tau: a run of length T has T / (2 tau) independent samples. None where the
+        integrated_correlation_time: tau: a run of length T has T / (2 tau) independent samples. None where the
             run is too short, or none was measured; `error` is then a lower bound, if there is one.
         note: a remark, or empty.
     """
@@ -54,7 +54,7 @@ class Number:
     value: float
     error: float | None = None
     unit: str = ""
-    decorrelation_time: float | None = None
+    integrated_correlation_time: float | None = None
     note: str = ""
 
     def __float__(self) -> float:
