@@ -119,6 +119,9 @@ struct Run {
   struct Equilibrate {                               ///< the run before the measured one
     std::optional<double> collisions_per_disk = {};  ///< exactly one of the two is present
     std::optional<double> time = {};
+    /// Returns the number of pair collisions at which it ends with so many disks; none where it ends at a time, and where there
+    /// are more than 2^63.
+    [[nodiscard]] std::optional<std::uint64_t> pair_collisions(std::int64_t disks) const;
   };
   std::optional<double> time = {};               ///< end of the measured run
   std::optional<std::uint64_t> collisions = {};  ///< number of pair collisions at which it ends

@@ -7,12 +7,16 @@
 
 namespace carom {
 
+/// The most threads of one process: more would wait for each other longer than they compute.
+inline constexpr int most_threads = 32;
+
 /// How a simulation is shared out to several cores. No bit of it depends on any of these numbers, only its speed does: each
-/// domain computes the disks of a part of the box and, once more, those in a halo round that part (docs/parallel.md).
+/// domain computes the disks of a part of the box and, once more, those in a halo round that part (docs/parallel.md). With one
+/// thread and one domain the engine runs alone.
 struct Threads {
-  std::size_t threads = 1;         ///< that compute at the same time; with 1 the engine runs alone, without domains
-  std::size_t domains = 0;         ///< parts of the box, at most 32, or 1024 on several ranks; 0 for one for each thread
-  double halo = 0.0;               ///< width of halos, in largest contact distances; 0 for one that suits the density
+  std::size_t threads = 1;  ///< threads that compute at the same time, 1 to most_threads
+  std::size_t domains = 0;  ///< parts of the box, at most most_threads, or 1024 on several ranks; 0 for one for each thread
+  double halo = 0.0;        ///< width of halos, in largest contact distances; 0 for one that suits the density
   double events_per_window = 0.5;  ///< events of each disk in the first window between two exchanges; > 0
 };
 

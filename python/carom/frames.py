@@ -271,7 +271,7 @@ class Frames:
         """Returns the frames as an animation of matplotlib.
 
         Args:
-            every: shows every so-manieth frame.
+            every: shows every n-th frame, n = every.
             color: "speed", "species" or any colour of matplotlib.
             trail: the number of frames over which a disk leaves a trail.
             interval: milliseconds from one frame to the next.

@@ -397,7 +397,7 @@ class Simulation:
             dt: from one sample to the next; time.
             until: where the run ends.
             positions, velocities: whether they are kept.
-            stride: keeps every so-manieth sample alone.
+            stride: keeps every n-th sample alone, n = stride.
             progress: True for a bar (needs tqdm), or a function of the fraction done.
 
         Raises:

@@ -1,11 +1,12 @@
 #include "app/movie_plan.hpp"
+#include "text/number_in.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -36,9 +37,8 @@ std::variant<FilmFormat, PictureFormat> format_of(const fs::path& path) {
 }
 
 int pixels_of(std::string_view text, const std::string& whole) {
-  int pixels = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), pixels);
-  if (error == std::errc() && end == text.data() + text.size() && pixels >= fewest_pixels && pixels <= most_pixels) return pixels;
+  const std::optional<int> pixels = number_in<int>(text);
+  if (pixels && *pixels >= fewest_pixels && *pixels <= most_pixels) return *pixels;
   throw UsageError(
       fmt::format("--size {}: it can be the longer side or WIDTHxHEIGHT in pixels, from {} to {}, such as 1080 or 1920x1080",
                   whole, fewest_pixels, most_pixels));

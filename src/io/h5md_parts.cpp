@@ -92,7 +92,7 @@ void write(hid_t parent, const Table& table) {
   write_attribute(group.get(), "average", average_word(table.average));
   std::vector<std::string> names, units;
   for (const Column& column : table.columns) {
-    write_fixed(group.get(), column.name, std::span<const double>(column.values));
+    write_column(group.get(), column.name, std::span<const double>(column.values));
     names.push_back(column.name);
     units.push_back(column.unit);
   }

@@ -5,6 +5,7 @@
 #include "io/finished_run.hpp"
 #include "io/h5md_parts.hpp"
 #include "io/summary.hpp"
+#include "simulation/start.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -100,12 +101,7 @@ RunRecord::Source source_of(const std::string& resolved, std::int64_t disks, con
   source.resolved = resolved;
   for (const Species& species : source.scene.species) source.species.push_back(species.name);
   if (source.scene.disk_count() != disks) return source;  // not the species of the run
-  for (std::size_t s = 0; s < source.scene.species.size(); ++s)
-    for (std::int64_t i = 0; i < source.scene.species[s].count; ++i) {
-      source.disks.radius.push_back(source.scene.species[s].radius_of(i));
-      source.disks.mass.push_back(source.scene.species[s].mass_of(i));
-      source.disks.species.push_back(static_cast<std::int32_t>(s));
-    }
+  source.disks = disks_of(source.scene);
   return source;
 }
 

@@ -186,15 +186,10 @@ SameResults compare_results(const fs::path& one, const fs::path& other) {
       found.differences.push_back(fmt::format("{}: only one of the two has this file", product));
       continue;
     }
-    try {
-      const auto compare = a.extension() == ".h5md"   ? compare_trajectories
-                           : a.extension() == ".json" ? compare_summaries
-                                                      : compare_texts;
-      found.files.push_back(compare(a, b, left_out, found.differences));
-    } catch (const detail::Hdf5Error& damage) {
-      throw OutputError(
-          fmt::format("{}: HDF5 cannot read this file ({}); it is damaged or cut short", a.string(), damage.what()));
-    }
+    const auto compare = a.extension() == ".h5md"   ? compare_trajectories
+                         : a.extension() == ".json" ? compare_summaries
+                                                    : compare_texts;
+    detail::reading_hdf5(a, [&] { found.files.push_back(compare(a, b, left_out, found.differences)); });
   }
   return found;
 }

@@ -2,6 +2,7 @@
 
 #include "io/json.hpp"
 #include "io/observable_output.hpp"
+#include "scene/walls.hpp"
 
 #include <fmt/format.h>
 
@@ -36,8 +37,8 @@ Totals totals_in(const Json& json, const EffectsReport& effects) {
   totals.stale = events.at("stale").get<std::uint64_t>();
   visit_events(effects, totals, [&](const char* key, const char*, std::uint64_t& count) { count = count_in(events, key); });
   totals.virial = finite_in(json.at("virial"));
-  const char* const sides[] = {"left", "right", "bottom", "top"};
-  for (std::size_t side = 0; side < 4; ++side) totals.wall_impulse[side] = finite_in(json.at("wall_impulse").at(sides[side]));
+  for (std::size_t side = 0; side < 4; ++side)
+    totals.wall_impulse[side] = finite_in(json.at("wall_impulse").at(wall_names[side]));
   const Json& numerics = json.at("numerics");
   totals.numerics = {.simultaneous = count_in(numerics, "simultaneous"),
                      .overlapping = count_in(numerics, "overlapping"),

@@ -29,9 +29,7 @@ Scene without_end(Scene scene) {
 void equilibrate(Simulation& simulation, const std::optional<Run::Equilibrate>& asked) {
   if (!asked) return;
   RunLimits limits;
-  if (asked->collisions_per_disk)
-    limits.collisions = static_cast<std::uint64_t>(
-        std::ceil(*asked->collisions_per_disk * static_cast<double>(simulation.disks().count()) / 2.0));
+  limits.collisions = asked->pair_collisions(simulation.scene().disk_count()).value_or(RunLimits::none);
   const StopReason stopped = simulation.run_until(asked->time.value_or(std::numeric_limits<double>::max()), limits);
   if (stopped != StopReason::time && stopped != StopReason::collisions)
     throw std::runtime_error(

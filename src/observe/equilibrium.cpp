@@ -32,7 +32,7 @@ bool is_single_file(const Scene& scene) {
 }
 
 /// The packing fractions up to which equal disks are a liquid, and beyond which they are a crystal.
-constexpr double densest_liquid = 0.695, densest_fluid = 0.72;
+constexpr double densest_liquid = 0.695, loosest_crystal = 0.72;
 
 struct Masses {
   double least = std::numeric_limits<double>::infinity();
@@ -84,7 +84,7 @@ bool temperature_fluctuates(const Effects& effects) {
 
 std::string_view why_errors_are_of_one_start(const Scene& scene) {
   const Effects& effects = scene.effects;
-  if (scene.packing_fraction() > densest_fluid && !detail::radii_of(scene).equal())
+  if (scene.packing_fraction() > loosest_crystal && !detail::radii_of(scene).equal())
     return "so dense a mixture rearranges slowly: unless the run is many relaxation times long, another start may differ by more "
            "than the errors";
   if (const Masses masses = masses_of(scene); masses.least == masses.most && keeps_set_of_speeds(effects))
@@ -98,12 +98,12 @@ std::string_view why_errors_are_of_one_start(const Scene& scene) {
   return {};
 }
 
-bool is_crystal(const Scene& scene) { return scene.packing_fraction() > densest_fluid && detail::radii_of(scene).equal(); }
+bool is_crystal(const Scene& scene) { return scene.packing_fraction() > loosest_crystal && detail::radii_of(scene).equal(); }
 
 std::string_view why_errors_are_lower_bounds(const Scene& scene, double collisions_per_disk) {
   constexpr double blocks = 32.0;
   if (const double packing_fraction = scene.packing_fraction();
-      packing_fraction > densest_liquid && packing_fraction <= densest_fluid && detail::radii_of(scene).equal() &&
+      packing_fraction > densest_liquid && packing_fraction <= loosest_crystal && detail::radii_of(scene).equal() &&
       collisions_per_disk < blocks * static_cast<double>(scene.disk_count()))
     return "between liquid and solid, domains form and dissolve too slowly for this run: errors are lower bounds";
   const double file = static_cast<double>(scene.disk_count()) / (2.0 * std::numbers::pi);

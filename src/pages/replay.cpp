@@ -2,6 +2,7 @@
 
 #include "pages/replay.hpp"
 
+#include "core/nearest_image.hpp"
 #include "scene/effect_traits.hpp"
 
 #include <fmt/format.h>
@@ -119,7 +120,6 @@ double distance_from_samples(const Scene& scene, Replay replay, const std::vecto
                              const std::function<State(std::uint64_t)>& sample) {
   constexpr std::uint64_t most_samples = 50;  // each is read and compared whole
   const std::uint64_t step = std::max<std::uint64_t>(1, samples / most_samples);
-  const Eigen::Vector2d lengths = scene.box.lengths();
   double farthest = 0.0;
   std::size_t next = 0;
   for (std::uint64_t k = 0; k < samples; k += step) {
@@ -127,10 +127,8 @@ double distance_from_samples(const Scene& scene, Replay replay, const std::vecto
     const State state = sample(k);
     for (; next < events.size() && events[next].time <= state.time; ++next) replay.apply(events[next]);
     for (Eigen::Index i = 0; i < state.positions.cols(); ++i) {
-      Eigen::Vector2d apart = replay.position(static_cast<std::size_t>(i), state.time) - state.positions.col(i);
-      for (int axis = 0; axis < 2; ++axis)
-        if (scene.box.periodic(axis)) apart[axis] -= std::round(apart[axis] / lengths[axis]) * lengths[axis];
-      farthest = std::max(farthest, apart.norm());
+      const Eigen::Vector2d apart = replay.position(static_cast<std::size_t>(i), state.time) - state.positions.col(i);
+      farthest = std::max(farthest, nearest_image(scene.box, apart).norm());
     }
   }
   return farthest;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <boost/hana/functional/overload.hpp>
 
 #include <algorithm>
 #include <array>
@@ -91,13 +92,6 @@ std::string conserved(const Box& box, const Effects& effects) {
 
 namespace {
 
-template <class... Cases>
-struct Overloaded : Cases... {
-  using Cases::operator()...;
-};
-template <class... Cases>
-Overloaded(Cases...) -> Overloaded<Cases...>;
-
 std::string value_or_range(double same, const std::vector<double>& each) {
   if (each.empty()) return fmt::format("{:.6g}", same);
   const auto [least, most] = std::minmax_element(each.begin(), each.end());
@@ -105,26 +99,27 @@ std::string value_or_range(double same, const std::vector<double>& each) {
 }
 
 std::string words(const Positions& positions) {
-  return std::visit(
-      Overloaded{[](const RandomPositions& random) {
-                   return std::string(random.region ? "at random positions in a part of the box" : "at random positions");
-                 },
-                 [](const SquareLattice&) { return std::string("on a square lattice"); },
-                 [](const HexagonalLattice&) { return std::string("on a hexagonal lattice"); },
-                 [](const GrownPositions&) { return std::string("at random positions, grown to their size"); },
-                 [](const ListedPositions&) { return std::string("at the positions listed"); },
-                 [](const FilePositions& file) { return fmt::format("at the positions in {}", file.path); }},
-      positions);
+  return std::visit(boost::hana::overload(
+                        [](const RandomPositions& random) {
+                          return std::string(random.region ? "at random positions in a part of the box" : "at random positions");
+                        },
+                        [](const SquareLattice&) { return std::string("on a square lattice"); },
+                        [](const HexagonalLattice&) { return std::string("on a hexagonal lattice"); },
+                        [](const GrownPositions&) { return std::string("at random positions, grown to their size"); },
+                        [](const ListedPositions&) { return std::string("at the positions listed"); },
+                        [](const FilePositions& file) { return fmt::format("at the positions in {}", file.path); }),
+                    positions);
 }
 
 std::string words(const Velocities& velocities) {
   return std::visit(
-      Overloaded{[](const AtRest&) { return std::string("at rest"); },
-                 [](const UniformVelocities& v) { return fmt::format("velocities uniform in [-{0:.6g}, {0:.6g}]", v.maximum); },
-                 [](const MaxwellVelocities& v) { return fmt::format("Maxwell velocities at kT = {:.6g}", v.temperature); },
-                 [](const FixedSpeed& v) { return fmt::format("all with speed {:.6g}", v.speed); },
-                 [](const ListedVelocities&) { return std::string("with the velocities listed"); },
-                 [](const FileVelocities&) { return std::string("with the velocities of that file"); }},
+      boost::hana::overload(
+          [](const AtRest&) { return std::string("at rest"); },
+          [](const UniformVelocities& v) { return fmt::format("velocities uniform in [-{0:.6g}, {0:.6g}]", v.maximum); },
+          [](const MaxwellVelocities& v) { return fmt::format("Maxwell velocities at kT = {:.6g}", v.temperature); },
+          [](const FixedSpeed& v) { return fmt::format("all with speed {:.6g}", v.speed); },
+          [](const ListedVelocities&) { return std::string("with the velocities listed"); },
+          [](const FileVelocities&) { return std::string("with the velocities of that file"); }),
       velocities);
 }
 

@@ -5,12 +5,12 @@
 #include "pages/scene_words.hpp"
 #include "scene/checks.hpp"
 #include "scene/growth_room.hpp"
+#include "scene/walls.hpp"
 #include "text/numbers.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -42,10 +42,9 @@ SummaryRow row_of_wall(const WallReport& wall) {
 }
 
 void put_walls(SummaryRows& rows, const RunReport& report, const Scene& scene) {
-  constexpr std::array<const char*, 4> names = {"left", "right", "bottom", "top"};
   for (const WallReport& wall : report.of_effects.walls)
     for (std::size_t side = 0; side < 4; ++side)
-      if (wall.name == names[side] && scene.effects.walls[side].present()) rows.push_back(row_of_wall(wall));
+      if (wall.name == wall_names[side] && scene.effects.walls[side].present()) rows.push_back(row_of_wall(wall));
 }
 
 std::string words(std::uint64_t count, const char* /*unit*/) { return grouped(count); }

@@ -11,8 +11,9 @@ namespace carom {
 
 /// The partners of a disk within the steps of the potential: ids, rising, and -1 behind them, and the step of each pair.
 struct StepsOfPairs {
-  std::array<std::int32_t, 24> ids;
-  std::array<std::int16_t, 24> steps;
+  static constexpr std::size_t most = 24;
+  std::array<std::int32_t, most> ids;
+  std::array<std::int16_t, most> steps;
 
   bool operator==(const StepsOfPairs&) const = default;
 };

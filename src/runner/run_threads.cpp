@@ -1,19 +1,18 @@
 #include "runner/run_threads.hpp"
 
+#include "text/number_in.hpp"
 #include "text/numbers.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cstdint>
 #include <fstream>
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 #include <thread>
 
 namespace carom {
@@ -24,9 +23,10 @@ namespace {
 constexpr std::int64_t fewest_disks = 50'000;
 
 constexpr int most_suggested = 16;
-constexpr int most = 32;
 
-constexpr const char* range = "give auto, or a number from 1 to 32";
+[[noreturn]] void refuse_number() {
+  throw std::invalid_argument(fmt::format("give auto, or a number from 1 to {}", most_threads));
+}
 
 }  // namespace
 
@@ -49,16 +49,14 @@ SuggestedThreads suggested_threads(const Simulation& simulation, int free, int p
 
 std::optional<int> threads_in(std::string_view text) {
   if (text == "auto") return std::nullopt;
-  int threads = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), threads);
-  if (error != std::errc{} || end != text.data() + text.size() || threads < 1 || threads > most)
-    throw std::invalid_argument(range);
+  const std::optional<int> threads = number_in<int>(text);
+  if (!threads || *threads < 1 || *threads > most_threads) refuse_number();
   return threads;
 }
 
 void set_threads_of_run(Simulation& simulation, std::optional<int> threads) {
   const int wanted = threads ? *threads : suggested_threads(simulation).threads;
-  if (wanted < 1 || wanted > most) throw std::invalid_argument(range);
+  if (wanted < 1 || wanted > most_threads) refuse_number();
   const std::string reason = simulation.why_not_threads();
   if (reason.empty()) return simulation.set_threads({.threads = static_cast<std::size_t>(wanted)});
   if (wanted == 1 || (wanted == 2 && !simulation.scene().observe.empty())) return;

@@ -1,4 +1,4 @@
-// Checks of the parts of a scene against each other: names, room for the disks, density, given positions, and an end to the run.
+// Checks of the parts of a scene against each other: names, room for the disks, density, and given positions.
 
 #include "neighbours/disks_at_rest.hpp"
 #include "scene/changes.hpp"
@@ -20,8 +20,7 @@
 namespace carom::detail {
 namespace {
 
-/// The jamming density of random sequential addition of equal disks in the plane. Boxes of a few diameters can exceed it.
-constexpr double random_limit = 0.547;
+/// Boxes of so few diameters can exceed random_limit.
 constexpr double random_limit_diameters = 5.0;
 
 std::string path_of_position(std::size_t species, std::size_t row) { return fmt::format("disks.{}.positions.{}", species, row); }

@@ -23,6 +23,8 @@ std::string path_of_step(std::size_t k);
 inline constexpr double touching = 1e-9;
 /// pi / (2 sqrt 3): no arrangement of equal disks is denser, in a rectangle or on a torus.
 inline constexpr double closest_packing = std::numbers::pi / (2.0 * std::numbers::sqrt3);
+/// The jamming density of random sequential addition of equal disks in the plane.
+inline constexpr double random_limit = 0.547;
 /// Numbers of samples, steps and events of the thermostat are exact in double precision below it.
 inline constexpr double most_countable = 9007199254740992.0;  // 2^53
 inline constexpr const char* axis_names[] = {"x", "y"};

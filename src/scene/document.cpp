@@ -2,13 +2,13 @@
 
 #include "scene/excerpt.hpp"
 #include "scene/table_reader.hpp"
+#include "text/number_in.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
-#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -146,13 +146,6 @@ toml::table parse_value(std::string_view value, const Location& where) {
   throw SceneError(where, fmt::format("the value is not TOML; {}", shape));
 }
 
-std::optional<std::size_t> as_index(const std::string& part) {
-  std::size_t index = 0;
-  const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
-  const bool whole = error == std::errc() && end == part.data() + part.size();
-  return whole ? std::optional(index) : std::nullopt;
-}
-
 std::string joined(const std::vector<std::string>& parts, std::size_t count) {
   return fmt::format("{}", fmt::join(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(count), "."));
 }
@@ -176,7 +169,8 @@ class Walk {
     toml::node* found = table.get(parts_[i]);
     if (value == nullptr && found != nullptr) return found;
     const toml::key key(parts_[i], toml::source_region{{1, 1}, {1, 1}, std::make_shared<const std::string>(where_.source)});
-    toml::table made = toml::parse(value == nullptr && as_index(parts_[i + 1]) ? "v = []" : "v = {}", where_.source);
+    toml::table made =
+        toml::parse(value == nullptr && number_in<std::size_t>(parts_[i + 1]) ? "v = []" : "v = {}", where_.source);
     table.insert_or_assign(key, std::move(value == nullptr ? *made.get("v") : *value));
     return table.get(parts_[i]);
   }
@@ -188,7 +182,7 @@ class Walk {
       throw SceneError(where_,
                        fmt::format("{} is {} and has no part \"{}\"; set {} as a whole", way, describe(node), parts_[i], way));
     }
-    const std::optional<std::size_t> index = as_index(parts_[i]);
+    const std::optional<std::size_t> index = number_in<std::size_t>(parts_[i]);
     if (!index) {
       throw SceneError(where_, fmt::format("{} is a list, so a number from 0 must follow it, such as {}.0; found \"{}\"", way,
                                            way, parts_[i]));

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <numbers>
 #include <string>
@@ -132,6 +133,12 @@ SceneError detail::scene_error(const Scene& scene, const std::string& path, cons
 
 SceneError::SceneError(const Location& where, const std::string& sentence)
     : std::runtime_error(located(where, sentence)), where_(where), sentence_(sentence) {}
+
+std::optional<std::uint64_t> Run::Equilibrate::pair_collisions(std::int64_t disks) const {
+  if (!collisions_per_disk) return std::nullopt;
+  const double asked = std::ceil(*collisions_per_disk * static_cast<double>(disks) / 2.0);
+  return asked < 0x1p63 ? std::optional(static_cast<std::uint64_t>(asked)) : std::nullopt;
+}
 
 std::int64_t Scene::disk_count() const {
   std::int64_t sum = 0;

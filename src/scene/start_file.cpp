@@ -6,15 +6,14 @@
 #include "scene/excerpt.hpp"
 #include "scene/npy_file.hpp"
 #include "scene/start_rows.hpp"
+#include "text/number_in.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <string_view>
-#include <system_error>
 
 namespace carom::detail {
 namespace {
@@ -40,10 +39,8 @@ void split(std::string_view line, std::vector<TextField>& fields) {
 std::optional<double> parse_number(std::string_view text) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+')
     text.remove_prefix(1);  // from_chars takes no plus sign
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool whole = error == std::errc() && end == text.data() + text.size();
-  return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
+  const std::optional<double> value = number_in<double>(text);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 bool names_column(const TextField& field) {

@@ -22,9 +22,6 @@ namespace carom {
 
 namespace {
 
-/// Deepest overlap of a start that still counts as touching, relative to the contact distance.
-constexpr double accepted_overlap = 1e-9;
-
 /// Tries for one disk before random placement gives up. At the packing fractions that random sequential addition
 /// reaches in practice (0.53) one try in 1e4 succeeds.
 constexpr int placement_tries = 1'000'000;
@@ -89,7 +86,7 @@ class Placement {
     for (const std::int64_t i : ids) diameter = std::max(diameter, 2.0 * disks_.radius[static_cast<std::size_t>(i)]);
     const std::string where = fmt::format("disks.{}.positions", species.front());
     const Lattice lattice = make(scene_.box, static_cast<std::int64_t>(ids.size()), diameter);
-    if (lattice.spacing < diameter * (1.0 - accepted_overlap)) {
+    if (lattice.spacing < diameter * (1.0 - detail::touching)) {
       throw detail::scene_error(
           scene_, where,
           fmt::format(
@@ -101,7 +98,7 @@ class Placement {
       const auto on_lattice = [&](std::int64_t kind) {
         return std::ranges::find(species, static_cast<std::size_t>(kind)) != species.end();
       };
-      if (!on_lattice(pair.one) || !on_lattice(pair.other) || lattice.spacing >= pair.largest * (1.0 - accepted_overlap))
+      if (!on_lattice(pair.one) || !on_lattice(pair.other) || lattice.spacing >= pair.largest * (1.0 - detail::touching))
         continue;
       throw detail::scene_error(
           scene_, where,
@@ -112,14 +109,14 @@ class Placement {
     if (species.size() > 1) shuffle(ids);
     for (std::size_t k = 0; k < ids.size(); ++k) {
       const Eigen::Vector2d site = lattice.sites.col(static_cast<Eigen::Index>(k));
-      if (const auto shape = upon_shape(ids[k], site, accepted_overlap)) {
+      if (const auto shape = upon_shape(ids[k], site, detail::touching)) {
         throw detail::scene_error(scene_, where,
                                   fmt::format("the {} lattice puts disk {} upon {}; give all positions one by one, or ask for "
                                               "\"random\"",
                                               name, ids[k], path_of_shape(scene_.effects, shape->shape)));
       }
       const auto found = in_place_.deepest(site, static_cast<std::int32_t>(ids[k]));
-      if (found.relative_overlap > accepted_overlap) {
+      if (found.relative_overlap > detail::touching) {
         throw detail::scene_error(
             scene_, where,
             fmt::format(
@@ -182,8 +179,8 @@ class Placement {
         scene_, fmt::format("disks.{}.positions", species),
         fmt::format("no room for disk {} of radius {:g} after {} random tries: the scene asks for a packing "
                     "fraction of {:.4g}, and random "
-                    "placement of equal disks ends at 0.547; take fewer or smaller disks, or positions = \"hexagonal\"",
-                    i, radius, placement_tries, scene_.packing_fraction()));
+                    "placement of equal disks ends at {}; take fewer or smaller disks, or positions = \"hexagonal\"",
+                    i, radius, placement_tries, scene_.packing_fraction(), detail::random_limit));
   }
 
   const Scene& scene_;

@@ -120,13 +120,9 @@ class Schedule {
     equilibrating_ = true;
     ends_by_time_ = run_.equilibrate->time.has_value();
     Instant until = forever;
-    std::uint64_t collisions = no_limit;
-    if (ends_by_time_) {
-      until = {*run_.equilibrate->time, 0.0};
-    } else {
-      const double asked = std::ceil(*run_.equilibrate->collisions_per_disk * static_cast<double>(disks_.count()) / 2.0);
-      if (asked < 0x1p63) collisions = static_cast<std::uint64_t>(asked);
-    }
+    if (ends_by_time_) until = {*run_.equilibrate->time, 0.0};
+    const std::uint64_t collisions =
+        run_.equilibrate->pair_collisions(static_cast<std::int64_t>(disks_.count())).value_or(no_limit);
     end_ = {until, collisions};
     if (!advance(until, collisions) && result_.stopped != StopReason::collisions) return false;
     engine().reset_clock();

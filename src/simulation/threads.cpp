@@ -1,5 +1,6 @@
 #include <carom/threads.hpp>
 
+#include "parallel/disk_message.hpp"
 #include "scene/effect_traits.hpp"
 #include "simulation/catalogue.hpp"
 #include "simulation/parts.hpp"
@@ -40,7 +41,7 @@ namespace carom::detail {
 
 Threads with_domains(Threads threads, int ranks) {
   const auto count = static_cast<std::size_t>(ranks);
-  constexpr std::size_t most = 32;  // threads of one process: more would wait for each other longer than they compute
+  constexpr auto most = static_cast<std::size_t>(most_threads);
   const std::size_t most_domains = count == 1 ? most : 1024;
   const auto refuse = [](const std::string& what) { throw std::invalid_argument(what); };
   if (threads.threads < 1 || threads.threads > most)
@@ -59,9 +60,6 @@ Threads with_domains(Threads threads, int ranks) {
 }
 
 namespace {
-
-/// The room for partners in a message about a disk (parallel/disk_message.hpp).
-constexpr double most_partners = 24.0;
 
 /// Returns a bound of the number of disks within `width` contact distances of one: each holds a disk of the smallest size, as
 /// near to that one as it goes, and these fill no more than pi / sqrt(12) of the ring that they are in. Of equal disks and width
@@ -84,7 +82,7 @@ std::string why_not_threads(const Effects& effects, const Disks& disks) {
                                        : "wells are wider than two diameters";
     if (detail::effect_named("non_additivity").acts(effects))
       return "in wells of disks whose diameters are not additive there may be more disks than a message holds";
-    if (most_within(steps.back().width, disks) > most_partners)
+    if (most_within(steps.back().width, disks) > static_cast<double>(StepsOfPairs::most))
       return "sizes differ so much that a disk may have too many others within reach of the potential";
   }
   for (const WallProperties& wall : effects.walls) {

@@ -3,6 +3,7 @@
 #include "core/random.hpp"
 #include "simulation/start.hpp"
 
+#include <boost/hana/functional/overload.hpp>
 #include <boost/random/normal_distribution.hpp>
 #include <boost/random/uniform_real_distribution.hpp>
 
@@ -19,48 +20,39 @@ namespace {
 /// Rounds in which momentum and the temperatures of several species settle; each gains a digit or more.
 constexpr int settling_rounds = 60;
 
-/// Overloads in one place for std::visit.
-template <class... Fs>
-struct Overloaded : Fs... {
-  using Fs::operator()...;
-};
-template <class... Fs>
-Overloaded(Fs...) -> Overloaded<Fs...>;
-
 /// Each disk draws from its own stream: its velocity does not depend on which other disks there are.
 Eigen::Vector2d draw(const Velocities& asked, double mass, std::size_t index, RandomStream random) {
-  return std::visit(Overloaded{
-                        [](const AtRest&) -> Eigen::Vector2d { return Eigen::Vector2d::Zero(); },
-                        [&](const UniformVelocities& uniform) -> Eigen::Vector2d {
-                          if (uniform.maximum == 0.0) return Eigen::Vector2d::Zero();
-                          boost::random::uniform_real_distribution<double> component(-uniform.maximum, uniform.maximum);
-                          const double x = component(random);
-                          const double y = component(random);
-                          return {x, y};
-                        },
-                        [&](const MaxwellVelocities& maxwell) -> Eigen::Vector2d {
-                          boost::random::normal_distribution<double> component(0.0, std::sqrt(maxwell.temperature / mass));
-                          const double x = component(random);
-                          const double y = component(random);
-                          return {x, y};
-                        },
-                        [&](const FixedSpeed& fixed) -> Eigen::Vector2d {
-                          // A direction without sine and cosine, whose last bits differ between machines: of points in a square,
-                          // the first in the unit disk.
-                          boost::random::uniform_real_distribution<double> component(-1.0, 1.0);
-                          for (;;) {
-                            const double x = component(random);
-                            const double y = component(random);
-                            const double square = x * x + y * y;
-                            if (square > 1.0 || square < 1e-6) continue;
-                            const double scale = fixed.speed / std::sqrt(square);
-                            return {scale * x, scale * y};
-                          }
-                        },
-                        [&](const ListedVelocities& listed) -> Eigen::Vector2d { return listed.values[index]; },
-                        [&](const FileVelocities& file) -> Eigen::Vector2d { return file.values[index]; },
-                    },
-                    asked);
+  return std::visit(
+      boost::hana::overload([](const AtRest&) -> Eigen::Vector2d { return Eigen::Vector2d::Zero(); },
+                            [&](const UniformVelocities& uniform) -> Eigen::Vector2d {
+                              if (uniform.maximum == 0.0) return Eigen::Vector2d::Zero();
+                              boost::random::uniform_real_distribution<double> component(-uniform.maximum, uniform.maximum);
+                              const double x = component(random);
+                              const double y = component(random);
+                              return {x, y};
+                            },
+                            [&](const MaxwellVelocities& maxwell) -> Eigen::Vector2d {
+                              boost::random::normal_distribution<double> component(0.0, std::sqrt(maxwell.temperature / mass));
+                              const double x = component(random);
+                              const double y = component(random);
+                              return {x, y};
+                            },
+                            [&](const FixedSpeed& fixed) -> Eigen::Vector2d {
+                              // A direction without sine and cosine, whose last bits differ between machines: of points in a
+                              // square, the first in the unit disk.
+                              boost::random::uniform_real_distribution<double> component(-1.0, 1.0);
+                              for (;;) {
+                                const double x = component(random);
+                                const double y = component(random);
+                                const double square = x * x + y * y;
+                                if (square > 1.0 || square < 1e-6) continue;
+                                const double scale = fixed.speed / std::sqrt(square);
+                                return {scale * x, scale * y};
+                              }
+                            },
+                            [&](const ListedVelocities& listed) -> Eigen::Vector2d { return listed.values[index]; },
+                            [&](const FileVelocities& file) -> Eigen::Vector2d { return file.values[index]; }),
+      asked);
 }
 
 bool is_drawn(const Velocities& asked) {

@@ -1,15 +1,16 @@
 #include "terminal/processes.hpp"
 
 #include "terminal/command.hpp"
+#include "text/number_in.hpp"
 
 #include <fmt/format.h>
 
 #include <unistd.h>
 
 #include <array>
-#include <charconv>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 #include <system_error>
 
@@ -26,11 +27,7 @@ constexpr std::array<Names, 3> starters = {
 
 std::optional<int> number_in_environment(const char* name) {
   const char* const text = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): before there are threads
-  if (text == nullptr) return {};
-  const std::string_view digits = text;
-  int number = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  return error == std::errc() && end == digits.data() + digits.size() ? std::optional(number) : std::nullopt;
+  return text == nullptr ? std::nullopt : number_in<int>(text);
 }
 
 ProcessJoiner* joiner = nullptr;

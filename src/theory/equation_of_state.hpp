@@ -6,7 +6,11 @@
 
 namespace carom::theory {
 
-/// Compressibility factor Z = beta P A / N of the infinite system at packing fraction eta, 0 <= eta <= 0.69 (fluid).
+/// The largest packing fraction at which kolafa_rottner() is the fluid's equation of state, and that up to which
+/// kolafa_rottner_finite() is good to a few hundred disks.
+inline constexpr double densest_fluid = 0.69, densest_finite = 0.63;
+
+/// Compressibility factor Z = beta P A / N of the infinite system at packing fraction eta, 0 <= eta <= densest_fluid.
 /// Kolafa & Rottner, Mol. Phys. 104, 3435 (2006): good to about 1e-5 relative in that range.
 [[nodiscard]] double kolafa_rottner(double eta);
 
@@ -15,8 +19,8 @@ namespace carom::theory {
 
 /// Returns Z of N disks in a periodic box at total momentum zero, with kT = K / (N - 1):
 /// Z_N = Z - (eta / 2N) (2 Z' + eta Z'') / (Z + eta Z'), the first order in 1/N, which a fixed number of disks makes of the pair
-/// distribution (Lebowitz & Percus, Phys. Rev. 122, 1675 (1961)). Beyond eta = 0.63 higher orders are not small for a few hundred
-/// disks.
+/// distribution (Lebowitz & Percus, Phys. Rev. 122, 1675 (1961)). Beyond densest_finite higher orders are not small for a few
+/// hundred disks.
 [[nodiscard]] double kolafa_rottner_finite(double eta, std::int64_t disks);
 
 /// Returns the free energy of N disks in a periodic box at packing fraction `to` less that at `from`, over N kT: the integral of
@@ -32,8 +36,8 @@ namespace carom::theory {
 /// adiabat, dT / T = Z d rho / rho. Range and source as above.
 [[nodiscard]] double sound_speed(double eta);
 
-/// Virial coefficients B_n / (pi sigma^2 / 4)^(n - 1), Clisby & McCoy, J. Stat. Phys. 122, 15 (2006): b_2 ... b_10; b_5 and b_6
-/// on are known to the last digits given, or one or two of them.
+/// Virial coefficients B_n / (pi sigma^2 / 4)^(n - 1), Clisby & McCoy, J. Stat. Phys. 122, 15 (2006): b_2 ... b_10. b_2 to
+/// b_4 are rounded exact values; the last one or two digits of the others are uncertain.
 inline constexpr std::array<double, 9> virial_coefficients = {2.0,     3.1280178, 4.2578545, 5.336897, 6.36296,
                                                               7.35186, 8.3191,    9.2721,    10.216};
 

@@ -26,14 +26,14 @@ double over_speeds(double bend, Function f) {
     for (int k = 0; k < 4; ++k) sum += ThirtyPoints::integrate(weighted, from + panel * k, from + panel * (k + 1));
     from = to;
   }
-  const double norm = 2.0 * std::sqrt(std::acos(-1.0));  // of g^2 exp(-g^2 / 4) from 0 to infinity
+  const double norm = 2.0 * std::sqrt(std::numbers::pi);  // of g^2 exp(-g^2 / 4) from 0 to infinity
   return sum / norm;
 }
 
 /// Returns the fraction of missed collisions: with w the length of a step's relative flight over the longest chord that is
 /// detected, and chords c = sqrt(1 - b^2) of uniform b, the mean of max(0, 1 - c / w).
 double missed_at(double w) {
-  if (w >= 1.0) return 1.0 - std::acos(-1.0) / (4.0 * w);
+  if (w >= 1.0) return 1.0 - std::numbers::pi / (4.0 * w);
   if (w < 1e-3) return w * w / 6.0;  // the rest is w^4 / 40
   const double c = std::sqrt(1.0 - w * w);
   return (1.0 - c) - (std::asin(w) - w * c) / (2.0 * w);

@@ -18,9 +18,6 @@ enum class Notices {
 /// (sqrt(pi) / 2) step.
 [[nodiscard]] double mean_depth(double step);
 
-/// The largest packing fraction at which bias_of_Z() knows the fluid's equation of state.
-constexpr double densest_fluid = 0.69;
-
 /// Returns the relative bias of Z of a method that reverses disks where it finds them overlapping, to first order in `step`, at
 /// packing fraction eta (0 < eta <= densest_fluid): -(3 / sqrt(pi)) step eta Z'(eta) / Z(eta). To the pressure, such disks have
 /// the diameter sigma (1 - 3 step / (2 sqrt(pi))).

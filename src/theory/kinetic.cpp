@@ -1,5 +1,6 @@
 #include "theory/kinetic.hpp"
 
+#include "core/reduced_mass.hpp"
 #include "theory/equation_of_state.hpp"
 #include "theory/microcanonical.hpp"
 
@@ -48,10 +49,9 @@ double collision_rate(std::span<const Component> gas, double kT) {
   double rate = 0.0;
   for (const Component& i : gas)
     for (const Component& j : gas) {
-      const double sigma = i.radius + j.radius, reduced_mass = i.mass * j.mass / (i.mass + j.mass);
+      const double sigma = i.radius + j.radius, mass = reduced_mass(i.mass, j.mass);
       if (!(sigma > 0.0)) continue;
-      rate +=
-          0.5 * i.density * j.density * sigma * g.of(i.radius, j.radius) * std::sqrt(2.0 * std::numbers::pi * kT / reduced_mass);
+      rate += 0.5 * i.density * j.density * sigma * g.of(i.radius, j.radius) * std::sqrt(2.0 * std::numbers::pi * kT / mass);
     }
   return rate;
 }

@@ -22,9 +22,7 @@ namespace carom {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-// Kolafa and Rottner's equation is of the fluid; its first term in 1/N is known up to where it bends.
-constexpr double densest_fluid = 0.69;
-constexpr double densest_finite = 0.63;
+using theory::densest_finite, theory::densest_fluid;
 constexpr int line_points = 200;
 
 /// Even steps over the first column of a table, beginning above zero.
@@ -113,7 +111,8 @@ void RunTheory::find_Z() {
   } else if (eta_ <= densest_fluid) {
     Z_ = {theory::kolafa_rottner(eta_), "Kolafa & Rottner, infinitely many disks"};
   } else {
-    why_not_Z_ = "No theory is given: the equation of state of the fluid ends at a packing fraction of 0.70.";
+    why_not_Z_ =
+        fmt::format("No theory is given: the equation of state of the fluid ends at a packing fraction of {:g}.", densest_fluid);
   }
 }
 

@@ -21,9 +21,6 @@ namespace {
 /// Later than any run gets to.
 constexpr double end_of_time = 1e15;
 
-/// Largest packing fraction at which the disks are a fluid whose pressure is known to first order in 1/N.
-constexpr double densest_fluid = 0.63;
-
 /// Relative. Rounding adds up as a random walk: after 1e8 collisions to some 1e4 of 2^-53 of one disk's energy.
 constexpr double allowed_drift = 1e-12;
 
@@ -79,7 +76,7 @@ std::string Contender::fault() const {
   if (!broken.empty()) return of(broken.front());
   const Scene& scene = simulation_.scene();
   const double packing_fraction = scene.packing_fraction();
-  if (packing_fraction > densest_fluid || !scene.box.periodic(0) || !scene.effects.neutral()) return "";
+  if (packing_fraction > theory::densest_finite || !scene.box.periodic(0) || !scene.effects.neutral()) return "";
   const double expected = theory::kolafa_rottner_finite(packing_fraction, scene.disk_count());
   // Ten standard errors: collisions at random times would leave one of (Z - 1) / sqrt(collisions), and at these densities
   // blocks of a run show up to 1.3 times as much (docs/validation.md).

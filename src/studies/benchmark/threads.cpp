@@ -5,18 +5,17 @@
 #include "studies/benchmark/command.hpp"
 #include "studies/benchmark/contender.hpp"
 #include "terminal/progress.hpp"
+#include "text/number_in.hpp"
 #include "text/numbers.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <ctime>
 #include <string>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -160,11 +159,11 @@ int threads_of(const BenchOptions& options) {
     if (n < 16 || n > 100'000'000) throw UsageError(fmt::format("--disks {}: it can be 16 to 100,000,000", n));
   const std::string& text = *options.threads;
   if (text.empty()) return std::clamp(static_cast<int>(processors()), 2, 16);
-  int threads = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), threads);
-  if (error != std::errc{} || end != text.data() + text.size() || threads < 2 || threads > 32)
-    throw UsageError(fmt::format("--threads {}: several are measured against one; give a number from 2 to 32", text));
-  return threads;
+  const std::optional<int> threads = number_in<int>(text);
+  if (!threads || *threads < 2 || *threads > most_threads)
+    throw UsageError(
+        fmt::format("--threads {}: several are measured against one; give a number from 2 to {}", text, most_threads));
+  return *threads;
 }
 
 }  // namespace

@@ -172,10 +172,10 @@ class Study {
   }
 
   [[nodiscard]] bool has(const Method& method, std::uint64_t seed) const {
-    const auto same = [&](const Method& m) { return m.name == method.name && m.dt == method.dt; };
     return std::any_of(result_.runs.begin(), result_.runs.end(),
-                       [&](const MethodRun& run) { return same(run.method) && run.seed == seed; }) ||
-           std::any_of(result_.left_out.begin(), result_.left_out.end(), [&](const LeftOut& one) { return same(one.method); });
+                       [&](const MethodRun& run) { return run.method.same_step(method) && run.seed == seed; }) ||
+           std::any_of(result_.left_out.begin(), result_.left_out.end(),
+                       [&](const LeftOut& one) { return one.method.same_step(method); });
   }
 
   /// Runs all methods from one start. Returns false where the study was stopped.
@@ -233,8 +233,8 @@ class Study {
   /// Returns whether some of a method's steps from the first start had a mistake, but not all.
   [[nodiscard]] bool some_were_mistaken(const Method& method) const {
     return std::any_of(result_.runs.begin(), result_.runs.end(), [&](const MethodRun& run) {
-      return run.seed == result_.plan.seeds.front() && run.method.name == method.name && run.method.dt == method.dt &&
-             run.mistakes && run.mistakes->mistaken > 0 && run.mistakes->mistaken < run.mistakes->steps;
+      return run.seed == result_.plan.seeds.front() && run.method.same_step(method) && run.mistakes &&
+             run.mistakes->mistaken > 0 && run.mistakes->mistaken < run.mistakes->steps;
     });
   }
 
@@ -246,7 +246,7 @@ class Study {
     for (const Method& method : all) {
       double seconds = 0.0;
       for (const MethodRun& run : result_.runs)
-        if (run.seed == result_.plan.seeds.front() && run.method.name == method.name && run.method.dt == method.dt)
+        if (run.seed == result_.plan.seeds.front() && run.method.same_step(method))
           seconds = std::max(run.seconds, least_seconds);
       shares.push_back(seconds);
       sum += seconds;
@@ -261,7 +261,7 @@ class Study {
     const ComparePlan& plan = result_.plan;
     if (method.exact()) return plan.samples;
     for (const MethodRun& run : result_.runs)
-      if (run.method.name == method.name && run.method.dt == method.dt) return run.error.size();
+      if (run.method.same_step(method)) return run.error.size();
     double per_time = 0.0;
     try {
       per_time = seconds_per_time(method, start);

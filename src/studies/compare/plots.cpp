@@ -1,5 +1,6 @@
 #include "studies/compare/plots.hpp"
 
+#include "theory/equation_of_state.hpp"
 #include "theory/fixed_step.hpp"
 
 #include <fmt/format.h>

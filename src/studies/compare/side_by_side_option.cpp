@@ -3,13 +3,14 @@
 #include "studies/compare/side_by_side.hpp"
 #include "studies/compare/side_by_side_page.hpp"
 #include "terminal/command.hpp"
+#include "text/number_in.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -18,12 +19,10 @@ namespace carom::cli {
 namespace {
 
 double step_in(const std::string& text, const std::string& number) {
-  double dt = 0.0;
-  const char* const end = number.data() + number.size();
-  const auto read = std::from_chars(number.data(), end, dt);
-  if (read.ec != std::errc() || read.ptr != end || !(dt > 0.0 && std::isfinite(dt)))
+  const std::optional<double> dt = number_in<double>(number);
+  if (!dt || !(*dt > 0.0 && std::isfinite(*dt)))
     throw UsageError(fmt::format("--play {}: after the colon stands a time step, positive and finite, as in guarded:0.01", text));
-  return dt;
+  return *dt;
 }
 
 }  // namespace

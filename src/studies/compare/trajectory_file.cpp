@@ -4,15 +4,16 @@
 #include "scene/document.hpp"
 #include "scene/npy_file.hpp"
 #include "studies/diff/diff.hpp"
+#include "text/number_in.hpp"
 
 #include <carom/io/run_reader.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 
@@ -87,11 +88,9 @@ class FrameTable {
 
   [[nodiscard]] double number(const std::vector<std::string_view>& cells, std::string_view name) const {
     const std::string_view cell = cells[static_cast<std::size_t>(std::find(names_.begin(), names_.end(), name) - names_.begin())];
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-    if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
-      fail(fmt::format("{} is \"{}\", which is no finite number", name, cell));
-    return value;
+    const std::optional<double> value = number_in<double>(cell);
+    if (!value || !std::isfinite(*value)) fail(fmt::format("{} is \"{}\", which is no finite number", name, cell));
+    return *value;
   }
 
   void add_row(std::string_view row) {

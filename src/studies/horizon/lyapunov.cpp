@@ -1,5 +1,6 @@
 #include "studies/horizon/lyapunov.hpp"
 
+#include "core/nearest_image.hpp"
 #include "core/random.hpp"
 #include "scene/fixed_shapes.hpp"
 
@@ -202,10 +203,7 @@ Vec2<double> TangentFlow::from_curvature(std::size_t shape, const Vec2<double>& 
   const auto* arc = std::get_if<ArcObstacle>(&shapes_[shape]);
   if (arc == nullptr) return from;
   const auto is_image_of_centre = [&](const Vec2<double>& place) {
-    Vec2<double> apart = place - arc->centre;
-    for (int k = 0; k < 2; ++k)
-      if (box_.periodic(k)) apart[k] -= box_.lengths()[k] * std::round(apart[k] / box_.lengths()[k]);
-    return apart.norm() < rounding * (arc->radius + box_.lengths().norm());
+    return nearest_image(box_, place - arc->centre).norm() < rounding * (arc->radius + box_.lengths().norm());
   };
   for (const double reach : {distance - arc->radius, distance + arc->radius}) {  // from inside and from outside
     const Vec2<double> whole = (reach / distance) * from;
@@ -223,14 +221,7 @@ void TangentFlow::bring(Disk& a, double time, double remainder) const {
   a.remainder = remainder;
 }
 
-Vec2<double> TangentFlow::separation(const Disk& a, const Disk& b) const {
-  Vec2<double> r = a.r - b.r;
-  for (int k = 0; k < 2; ++k) {
-    const double length = box_.lengths()[k];
-    if (box_.periodic(k)) r[k] -= length * std::round(r[k] / length);
-  }
-  return r;
-}
+Vec2<double> TangentFlow::separation(const Disk& a, const Disk& b) const { return nearest_image(box_, a.r - b.r); }
 
 void TangentFlow::advance(double time) {
   for (Disk& a : all_) bring(a, time, 0.0);

@@ -18,6 +18,8 @@ struct Method {
   std::optional<double> stiffness = {};  ///< of the springs of soft; empty: that which dt gives them
 
   [[nodiscard]] bool exact() const { return dt == 0.0; }
+  /// Returns whether both are the same method with the same step.
+  [[nodiscard]] bool same_step(const Method& other) const { return name == other.name && dt == other.dt; }
 };
 
 /// Returns whether a fixed-step method goes to the moment of a contact within its step. It is right to rounding then, until a

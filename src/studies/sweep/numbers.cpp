@@ -11,6 +11,7 @@
 #include "simulation/start.hpp"
 #include "studies/sweep/results.hpp"
 #include "studies/sweep/seed_tables.hpp"
+#include "text/number_in.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -246,7 +247,7 @@ std::optional<TableNumber> table_number(std::string_view name) {
   if (dot == std::string_view::npos || middle.find('@') != std::string_view::npos) return {};
   TableNumber number{std::string(middle.substr(0, dot)), std::string(middle.substr(dot + 1)), {}};
   for (const std::string& value : split_at_commas(std::string(name.substr(sign + 1)))) {
-    const std::optional<double> at = number_of(value);
+    const std::optional<double> at = number_in<double>(value);
     if (!at || !std::isfinite(*at)) return {};
     number.at.push_back(*at);
   }

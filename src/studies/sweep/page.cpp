@@ -6,6 +6,7 @@
 #include "studies/sweep/seed_tables.hpp"
 #include "studies/sweep/sweep.hpp"
 #include "studies/sweep/theory.hpp"
+#include "text/number_in.hpp"
 #include "text/numbers.hpp"
 
 #include <carom/version.hpp>
@@ -54,7 +55,7 @@ std::vector<PlottedCurve> curves_of(const Sweep& sweep, const SweepResults& resu
   std::vector<PlottedCurve> curves;
   for (std::size_t p = 0; p < sweep.points.size(); ++p) {
     const SweepPoint& point = sweep.points[p];
-    const std::optional<double> x = number_of(point.values[key]);
+    const std::optional<double> x = number_in<double>(point.values[key]);
     const SeedAverage& y = results.averages[p][number];
     if (!x || !y.mean) continue;
     const std::string name = others_of(sweep, point, key);
@@ -106,7 +107,7 @@ Series theory_of(const PlottedCurve& curve, std::size_t place, bool alone) {
 bool has_several_numbers(const Sweep& sweep, std::size_t key) {
   std::set<double> values;
   for (const SweepPoint& point : sweep.points)
-    if (const std::optional<double> value = number_of(point.values[key])) values.insert(*value);
+    if (const std::optional<double> value = number_in<double>(point.values[key])) values.insert(*value);
   return values.size() > 1;
 }
 

@@ -2,6 +2,7 @@
 
 #include "observe/table_column.hpp"
 #include "studies/sweep/seed_tables.hpp"
+#include "text/number_in.hpp"
 #include "text/numbers.hpp"
 
 #include <carom/observe.hpp>
@@ -12,7 +13,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -217,15 +217,9 @@ SweepResults collect(const Sweep& sweep, const std::filesystem::path& directory)
   return results;
 }
 
-std::optional<double> number_of(const std::string& value) {
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-  return error == std::errc() && end == value.data() + value.size() && !value.empty() ? std::optional(number) : std::nullopt;
-}
-
 bool is_numeric(const Sweep& sweep, std::size_t key) {
   return std::all_of(sweep.points.begin(), sweep.points.end(), [&](const SweepPoint& point) {
-    return point.values[key].empty() || number_of(point.values[key]).has_value();
+    return point.values[key].empty() || number_in<double>(point.values[key]).has_value();
   });
 }
 

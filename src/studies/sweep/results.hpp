@@ -66,8 +66,6 @@ struct SweepResults {
 /// Reads what is below `directory`. A number at a lag (table_number()) comes from the tables of the runs.
 [[nodiscard]] SweepResults collect(const Sweep& sweep, const std::filesystem::path& directory);
 
-/// Returns a value in TOML as a number; absent where it is none, or absent itself.
-[[nodiscard]] std::optional<double> number_of(const std::string& value);
 /// Returns whether all values of this key are numbers.
 [[nodiscard]] bool is_numeric(const Sweep& sweep, std::size_t key);
 /// Returns a string without the quotes that TOML needs; other values as they are.

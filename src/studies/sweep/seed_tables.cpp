@@ -3,6 +3,7 @@
 #include "io/observable_output.hpp"
 #include "observe/table_column.hpp"
 #include "studies/sweep/numbers.hpp"
+#include "text/number_in.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -99,7 +100,7 @@ Table read_observed_table(const fs::path& path) {
     const std::vector<std::string> cells = split_at_commas(line);
     if (cells.size() != table.columns.size()) throw fault();
     for (std::size_t c = 0; c < cells.size(); ++c)
-      table.columns[c].values.push_back(number_of(cells[c]).value_or(std::numeric_limits<double>::quiet_NaN()));
+      table.columns[c].values.push_back(number_in<double>(cells[c]).value_or(std::numeric_limits<double>::quiet_NaN()));
   }
   return table;
 }

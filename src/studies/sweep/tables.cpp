@@ -8,6 +8,7 @@
 #include "io/hdf5_handle.hpp"
 #include "io/json.hpp"
 #include "studies/sweep/results.hpp"
+#include "text/number_in.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -129,7 +130,7 @@ std::string sweep_json(const Sweep& sweep, const SweepResults& results) {
     Json values = Json::object(), numbers = Json::object();
     for (std::size_t k = 0; k < sweep.keys.size(); ++k) {
       const std::string& value = sweep.points[point].values[k];
-      const std::optional<double> is_number = number_of(value);
+      const std::optional<double> is_number = number_in<double>(value);
       values[sweep.keys[k]] = value.empty() ? Json(nullptr) : is_number ? Json(*is_number) : Json(plain_value(value));
     }
     for (std::size_t k = 0; k < results.numbers.size(); ++k) {
@@ -178,7 +179,7 @@ void write_parameters(hid_t table, const Sweep& sweep, const Points& points) {
   for (std::size_t k = 0; k < sweep.keys.size(); ++k) {
     if (is_numeric(sweep, k)) {
       std::vector<double> values;
-      for (const std::size_t point : points) values.push_back(number(number_of(sweep.points[point].values[k])));
+      for (const std::size_t point : points) values.push_back(number(number_in<double>(sweep.points[point].values[k])));
       write_numbers(group.get(), sweep.keys[k], unit_of_key(sweep.keys[k]), values);
     } else {
       std::vector<std::string> values;
