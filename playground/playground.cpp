@@ -682,7 +682,7 @@ EMSCRIPTEN_KEEPALIVE const double* carom_state() {
   numbers = {shown.time,
              static_cast<double>(count),
              static_cast<double>(run.pairs()),
-             static_cast<double>(run.walls()),
+             static_cast<double>(run.walls() + run.obstacles()),
              static_cast<double>(run.events()),
              shown.scale,
              shown.shear_displacement,

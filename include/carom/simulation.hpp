@@ -330,7 +330,8 @@ struct RunHooks {
   /// Not for fixed-step methods.
   std::function<bool(const Event& event)> stop_when;
   std::uint64_t verify_every = 0;  ///< events from one check_invariants() to the next; 0 for no checks
-  /// Every few thousand events, after all that has happened so far was handed on; and when the run ends.
+  /// Every 20,000 events, or 2,000 where they are recorded, after all that has happened so far was handed on; and when the run
+  /// ends.
   std::function<void(const SavingMoment& moment)> checkpoint;
   /// The bytes that SavingMoment::save() wrote: the schedule goes on from there, without `start`. Requires the grids of then,
   /// in their order; others may follow, or may have followed, and are taken up at the next of their times. Where the bytes are

@@ -160,6 +160,7 @@ ExitCode run_with_changes(const RunOptions& options) {
     json["disks"] = run.simulation().disks().count();
     json["pair_collisions"] = run.pairs();
     json["wall_collisions"] = run.walls();
+    json["obstacle_collisions"] = run.obstacles();
     json["state_hash"] = run.hash();
     json["left_out"] = missing;
     fmt::print("{}\n", json.dump(2));
@@ -167,7 +168,7 @@ ExitCode run_with_changes(const RunOptions& options) {
     fmt::print("{} with {} of {}\n", options.scene.path, counted(made, "change"), options.changes);
     fmt::print("  {:<12}{}, at time {:.6g}\n", "ended by", to_string(stopped), run.time());
     fmt::print("  {:<12}{} of {}, {} with walls and obstacles\n", "events", counted(run.pairs(), "collision"),
-               counted(run.simulation().disks().count(), "disk"), grouped(run.walls()));
+               counted(run.simulation().disks().count(), "disk"), grouped(run.walls() + run.obstacles()));
     if (samples) fmt::print("  {:<12}{}\n", "files", samples->path());
     fmt::print("  {:<12}{}\n", "state hash", run.hash());
     if (!missing.empty()) fmt::print("  {:<12}{}\n", "left out", fmt::join(missing, ", "));

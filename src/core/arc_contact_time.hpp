@@ -58,7 +58,7 @@ template <class Real, class Counts>
     const ValueAndSlope<Real> at = rate(t);
     return ValueAndSlope<Real>{-at.value, -at.slope};
   };
-  const auto gap = [&](Real t) { return of_gap(approach.overlap(t)); };
+  const auto gap = [&](Real t) { return of_gap(approach.gap(t)); };
 
   BallisticApproach<Real> widest = approach;
   widest.expansion = abs(approach.expansion);

@@ -31,14 +31,14 @@ struct BallisticApproach {
     const Vec2<Real> u = velocity(t);
     return {at.dot(u) - (sigma + expansion * t) * expansion, u.squaredNorm() + at.dot(g) - expansion * expansion};
   }
-  /// Returns |separation|^2 - (contact distance)^2: its sign is that of the gap; and its rate.
-  [[nodiscard]] ValueAndSlope<Real> overlap(Real t) const {
+  /// Returns |separation|^2 - (contact distance)^2, which has the sign of the gap, and its rate.
+  [[nodiscard]] ValueAndSlope<Real> gap(Real t) const {
     const Vec2<Real> at = separation(t);
     const Real reach = sigma + expansion * t;
     return {at.squaredNorm() - reach * reach, 2 * (at.dot(velocity(t)) - reach * expansion)};
   }
 
-  /// More than overlap(t) is wrong by.
+  /// Returns more than gap(t) is wrong by.
   [[nodiscard]] Real rounding(Real t) const {
     const Real reach = sigma + expansion * t;
     return 128 * epsilon<Real> * (r.squaredNorm() + t * t * (v.squaredNorm() + t * t * g.squaredNorm()) + reach * reach);
@@ -54,9 +54,8 @@ struct BallisticApproach {
     return 8 * std::max<Real>(speed / strength, sqrt(length / strength));
   }
 
-  /// Returns the times at which the slope of rate() is zero, in ascending order: the roots of (3/2) g^2 t^2 + 3 g.v t + (v^2 +
-  /// g.r
-  /// - expansion^2) = 0. Returns infinity twice if there are none.
+  /// Returns the times at which the slope of rate() is zero, in ascending order: the roots of
+  /// (3/2) g^2 t^2 + 3 g.v t + (v^2 + g.r - expansion^2) = 0. Returns infinity twice if there are none.
   [[nodiscard]] std::array<Real, 2> bends() const {
     using std::sqrt;
     const Real a = 3 * g.squaredNorm() / 2;
@@ -93,7 +92,7 @@ template <class Real>
     const ValueAndSlope<Real> at = approach.rate(t);
     return ValueAndSlope<Real>{-at.value, -at.slope};
   };
-  const auto overlap = [&approach](Real t) { return approach.overlap(t); };
+  const auto gap = [&approach](Real t) { return approach.gap(t); };
 
   const Real end = approach.horizon();
   const auto [first_bend, second_bend] = approach.bends();
@@ -102,7 +101,7 @@ template <class Real>
   const ValueAndSlope<Real> start = rate(Real(0));
   bool falling = start.value < 0 || (start.value == 0 && (start.slope < 0 || (start.slope == 0 && g.dot(v) < 0)));
   Real top = 0;
-  const auto overlaps_at_top = [&] { return top == 0 ? sqrt(r.squaredNorm()) <= sigma : !(overlap(top).value > 0); };
+  const auto overlaps_at_top = [&] { return top == 0 ? sqrt(r.squaredNorm()) <= sigma : !(gap(top).value > 0); };
 
   Real from = 0;
   for (const Real& bend : {first_bend, second_bend, end}) {
@@ -114,10 +113,10 @@ template <class Real>
       if (top > until) return infinity<Real>;
     } else if (falling && !falls_at_end) {
       if (overlaps_at_top()) return top <= until ? top : infinity<Real>;
-      if (until < to && rate(until).value < 0 && overlap(until).value > approach.rounding(until)) return infinity<Real>;
+      if (until < to && rate(until).value < 0 && gap(until).value > approach.rounding(until)) return infinity<Real>;
       const Real bottom = bracketed_root<Real>(rate, to, from);
-      if (!(overlap(bottom).value > 0)) {
-        const Real t = bracketed_root<Real>(overlap, top, bottom);
+      if (!(gap(bottom).value > 0)) {
+        const Real t = bracketed_root<Real>(gap, top, bottom);
         return t <= until ? t : infinity<Real>;
       }
     }

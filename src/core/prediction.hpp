@@ -86,7 +86,7 @@ struct PredictionKernel {
   /// loads that follow read what has just been written.)
   void (*turn_and_predict)(Line* lines, const PredictionFrame& frame, CollidedPair& pair, double now, double avx, double avy,
                            double bvx, double bvy);
-  const char* name;  ///< name of the instruction set
+  const char* name;  ///< name of the instruction set, or "sheared" or "steps"
 };
 
 /// Returns the best kernel for this machine; see core/instructions.hpp. That of steps is the same on all.

@@ -26,7 +26,7 @@ struct Continuation {
   /// The next event of the thermostat. At another rate it comes at another time, and is drawn anew.
   struct Pending {
     double rate = 0.0;
-    int kind = 0;  ///< of redraws, as src/simulation/driven_engine.hpp numbers them
+    int kind = 0;  ///< Redraws::kind() of src/effects/redraws.hpp
     std::uint64_t number = 0;
     ThermostatEvent event;
     Instant time;

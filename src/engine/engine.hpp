@@ -3,9 +3,9 @@
 //
 // Where it gains: a disk is a line in space and time that nothing but its own collisions changes (engine/flight_frame.hpp);
 // neighbours are known from lists that change only when a disk leaves its neighbourhood (neighbours/neighbour_lists.hpp); one
-// disk is predicted against eight neighbours at a time (core/prediction.hpp); the next event comes from a calendar in O(1), which
-// also shows the events after it, so that their data can be asked for ahead (engine/prefetcher.hpp), or where disks are few from
-// a tournament without branches (queue/tournament_queue.hpp).
+// disk is predicted against four or eight neighbours at a time (core/prediction.hpp); the next event comes from a calendar in
+// O(1), which also shows the events after it, so that their data can be asked for ahead (engine/prefetcher.hpp), or where disks
+// are few from a tournament without branches (queue/tournament_queue.hpp).
 //
 // event_loop.hpp is the loop. Here is what is asked of an engine between events: its state, changes from outside, what another
 // engine needs that takes its place, and whether all is right in it.

@@ -115,7 +115,7 @@ void Engine<Impact, Layout, World>::check_pair(std::int32_t i, std::int32_t j, d
   const double sigma = contact_distance(i, j);
   const auto [r, v] = approach(frame_, line(i), line(j), flight_.boxes_above(i, j), now_);
   const double overlap = sigma - r.norm();
-  // Separations are known to 4 u times the way since the epoch: docs/numerics.md.
+  // Separations are known to 4 u times the way since the epoch, u half an epsilon: docs/numerics.md.
   const double rounding = 4.0 * epsilon<double> * (limits_.longest_line[0] + limits_.longest_line[1]);
   if (overlap > (tolerated_overlap + 1e-12) * sigma + rounding)
     faults.push_back(fmt::format("disks {} and {} overlap by {}", id(i), id(j), overlap));

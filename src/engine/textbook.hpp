@@ -314,6 +314,7 @@ class TextbookEngine {
   };
 
   static constexpr std::int32_t no_partner = -1;
+  static constexpr std::int32_t most_compared = 2000;  ///< disks of which all pairs are compared in checks
   static constexpr std::int32_t cell_crossing = -100;  ///< in the place of a partner; below every wall: crossed before it is hit
 
   [[nodiscard]] static Vec2<Real> momentum(const Record& a) { return a.mass * a.v; }
@@ -443,8 +444,8 @@ class TextbookEngine {
   /// One sentence for every way in which the plan differs from what an exhaustive search finds, and for every pair that overlaps
   /// by more of its contact distance than is tolerated.
   [[nodiscard]] std::vector<std::string> check_invariants(double tolerated_overlap = 0.0) const;
-  /// The deepest overlap of any pair, over its contact distance, and of any disk with a wall, over its radius; 0 where none
-  /// overlaps, and for more than 2000 disks.
+  /// Returns the deepest overlap of any pair or of any disk with an obstacle, over the contact distance, and of any disk with a
+  /// wall, over its radius; 0 where none overlaps, and for more than most_compared disks.
   [[nodiscard]] double deepest_overlap() const;
 
   /// All that decides how the run goes on, for core/archive.hpp. Requires all events to have been taken.

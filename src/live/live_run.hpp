@@ -24,7 +24,7 @@ class LiveRun {
   explicit LiveRun(const Scene& scene);
 
   /// Applies a change at its time, which is not before time(): runs on to there first. Throws SceneError where the run cannot be
-  /// changed so, with a sentence; the run then stands at the time of the change, unchanged.
+  /// changed so, with a sentence; the run then stands at the later of both times, unchanged.
   void apply(const Change& change);
   /// Goes on to `time`; ends early after `most_events` events more, or where time cannot pass any more.
   StopReason run_until(double time, std::uint64_t most_events = RunLimits::none);
@@ -41,9 +41,8 @@ class LiveRun {
   [[nodiscard]] std::string hash() const;
   /// Numbers of events since the start of the measured run.
   [[nodiscard]] std::uint64_t pairs() const { return counts_before_.pair + simulation_.counts().pair; }
-  [[nodiscard]] std::uint64_t walls() const {
-    return counts_before_.wall + counts_before_.obstacle + simulation_.counts().wall + simulation_.counts().obstacle;
-  }
+  [[nodiscard]] std::uint64_t walls() const { return counts_before_.wall + simulation_.counts().wall; }
+  [[nodiscard]] std::uint64_t obstacles() const { return counts_before_.obstacle + simulation_.counts().obstacle; }
   [[nodiscard]] std::uint64_t events() const { return counts_before_.events() + simulation_.counts().events(); }
 
   /// The simulation since disks last came or went, with the scene of now. Its clock began then.

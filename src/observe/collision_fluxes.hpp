@@ -62,8 +62,7 @@ struct alignas(64) CollisionContacts {
 struct FluxKernel {
   using Function = void(const FluxBatch& batch, const CollisionContacts& contacts, const FluxSums& sums);
 
-  // Indexed by the sums that are needed: 1 for transfer, 2 for momentum, 4 for energy. They use contacts.mu and sigma; that of
-  // energy requires equal masses and conserved energy.
+  // Indexed by the sums that are needed: 1 for transfer, 2 for momentum, 4 for energy.
   Function* of_smooth[8];    ///< from contacts.mu and sigma; of energy, where masses are equal and energy is kept
   Function* of_contacts[8];  ///< from contacts.impulse and separation
 };

@@ -42,7 +42,7 @@ void RunMeasurements::sample(const State& state) {
   const Disks& disks = simulation_.disks();
   const double temperature = kinetic_temperature(scene.box, scene.effects, disks, state);
   temperature_sum_ += temperature;
-  look_at_heat(state.time, temperature);
+  add_kinetic(state.time, temperature);
   effect_means_.sample(scene, disks, state);
   ++samples_;
   look_for_overlap(state);
@@ -66,23 +66,23 @@ void RunMeasurements::look_for_overlap(const State& state) {
 }
 
 /// kT that fluctuates carries the virial with it: Z is the ratio of both, with its error that of a ratio.
-void RunMeasurements::look_at_heat(double time, double temperature) {
+void RunMeasurements::add_kinetic(double time, double temperature) {
   if (!temperature_fluctuates(simulation_.whole_scene().effects)) return;
-  heat_ += static_cast<double>(report_.disks) * (seen_temperature_ + temperature) * (time - seen_time_);
+  kinetic_ += static_cast<double>(report_.disks) * (seen_temperature_ + temperature) * (time - seen_time_);
   seen_temperature_ = temperature;
   seen_time_ = time;
-  virial_over_heat_.add(heat_, simulation_.totals().virial);
+  virial_over_kinetic_.add(kinetic_, simulation_.totals().virial);
 }
 
 void RunMeasurements::measure_Z(const RunResult& result, double temperature) {
   const double collisions_per_disk = 2.0 * static_cast<double>(report_.totals.pair) / static_cast<double>(report_.disks);
   report_.note_on_errors = note_on_errors(simulation_.whole_scene(), collisions_per_disk);
   virial_.add(report_.time, report_.totals.virial);
-  if (samples_ > 0) look_at_heat(report_.time, temperature);
+  if (samples_ > 0) add_kinetic(report_.time, temperature);
   const Effects& effects = simulation_.whole_scene().effects;
   if (!why_no_Z(simulation_.whole_scene()).empty()) return;
   const bool fluctuates = temperature_fluctuates(effects);
-  const BlockedRate& series = fluctuates ? virial_over_heat_ : virial_;
+  const BlockedRate& series = fluctuates ? virial_over_kinetic_ : virial_;
   if (result.measured && report_.totals.pair > 0 && series.rate() && temperature > 0.0) {
     const double disks = static_cast<double>(report_.disks);
     report_.Z = fluctuates ? 1.0 + *series.rate() : compressibility(*series.rate(), disks, temperature);

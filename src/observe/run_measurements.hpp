@@ -25,21 +25,21 @@ class RunMeasurements {
   template <class Archive>
   void serialize(Archive& archive) {
     archive(report_.energy_initial, report_.energy_scale, report_.momentum_initial, report_.max_relative_overlap,
-            report_.overlap_checked, report_.overlap_at_start, virial_, virial_over_heat_, heat_, seen_temperature_, seen_time_,
-            temperature_sum_, effect_means_, samples_, energy_of_changes_, changes_);
+            report_.overlap_checked, report_.overlap_at_start, virial_, virial_over_kinetic_, kinetic_, seen_temperature_,
+            seen_time_, temperature_sum_, effect_means_, samples_, energy_of_changes_, changes_);
   }
 
  private:
   void look_for_overlap(const State& state);
-  void look_at_heat(double time, double temperature);
+  void add_kinetic(double time, double temperature);
   void add_changes(const Scene& whole);
   void measure_Z(const RunResult& result, double temperature);
 
   const Simulation& simulation_;
   RunReport report_;
   BlockedRate virial_;
-  BlockedRate virial_over_heat_;  ///< where kT fluctuates: heat_ takes the place of time
-  double heat_ = 0.0;             ///< integral of 2 N kT up to the last sample, which was at seen_time_
+  BlockedRate virial_over_kinetic_;  ///< where kT fluctuates: kinetic_ takes the place of time
+  double kinetic_ = 0.0;             ///< integral of 2 N kT up to the last sample, which was at seen_time_
   double seen_temperature_ = 0.0, seen_time_ = 0.0;
   double temperature_sum_ = 0.0;
   EffectMeans effect_means_;

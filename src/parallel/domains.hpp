@@ -236,7 +236,7 @@ class Domains {
   [[nodiscard]] double suitable_reach() const {
     return threads_.halo > 0.0 ? threads_.halo * contact() : 5.0 * (whole_.sizes_.reach + 2.0 * half_width_);
   }
-  bool is_unbalanced();
+  bool note_imbalance();
   [[nodiscard]] bool has_failed() { return failure_.any() || !failure_elsewhere_.empty(); }
 
   /// Lets all threads meet; one of them calls lead().

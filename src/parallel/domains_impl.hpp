@@ -720,7 +720,7 @@ void Domains<Impact, Layout, World>::end_of_epoch() {
     next_ = Next::failed;
   else if (whole_.stall_.jammed() || whole_.idle() || !owed_.isZero(0.0))  // which one engine alone is to give the disks
     next_ = Next::void_one, alone_until_ = whole_.epoch_.plus(whole_.epoch_length_);
-  else if (is_unbalanced() || 2.5 * half_width_ > reach_)  // halos hold all disks that new neighbourhoods bring to another home
+  else if (note_imbalance() || 2.5 * half_width_ > reach_)  // halos hold all disks that new neighbourhoods bring to another home
     next_ = Next::balance;
   else if (factor_)
     next_ = Next::arrived;
@@ -728,9 +728,10 @@ void Domains<Impact, Layout, World>::end_of_epoch() {
     begin_window();
 }
 
-/// Whether one domain has taken much longer than the others in the last epoch, so that borders are to be moved.
+/// Notes how much longer than the others one domain has taken in the last epoch. Returns whether that was much in four epochs in
+/// a row, so that borders are to be moved; their costs are then known.
 template <class Impact, class Layout, class World>
-bool Domains<Impact, Layout, World>::is_unbalanced() {
+bool Domains<Impact, Layout, World>::note_imbalance() {
   double all = 0.0, longest = 0.0;
   for (const Facts& facts : facts_) all += facts.epoch_seconds, longest = std::max(longest, facts.epoch_seconds);
   const bool unbalanced = longest * static_cast<double>(facts_.size()) > 1.25 * all;

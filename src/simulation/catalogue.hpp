@@ -38,12 +38,14 @@ std::string why_chosen(const EngineEntry& entry, const Scene& scene, const Disks
 /// An engine of that entry, driven from outside where the scene asks for it.
 std::unique_ptr<AnyEngine> make_engine(const EngineEntry& entry, const Scene& scene, const Disks& disks, State start);
 
-/// The fast engine, for equal disks or for any.
+/// Returns why the fast engine does not cover a scene, in half a sentence; empty where it does.
 std::string why_not_fast(const Scene& scene, const Disks& disks);
+/// The fast engine, for equal disks or for any.
 std::unique_ptr<AnyEngine> make_fast(const Scene& scene, const Disks& disks, State start);
 
-/// The fast engine with every effect.
+/// Returns the same of the fast engine with every effect.
 std::string why_not_general(const Scene& scene, const Disks& disks);
+/// The fast engine with every effect.
 std::unique_ptr<AnyEngine> make_general(const Scene& scene, const Disks& disks, State start);
 /// The general engine for a mixture whose diameters are not additive.
 std::unique_ptr<AnyEngine> make_mixed(const Scene& scene, const Disks& disks, State start);

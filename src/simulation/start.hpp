@@ -8,7 +8,7 @@ namespace carom {
 
 struct Start {
   Disks disks;
-  State state;  ///< at time 0, no images
+  State state;  ///< at time 0; without images where positions are drawn
 };
 
 /// Draws positions and velocities; the same scene and seed give the same bits.

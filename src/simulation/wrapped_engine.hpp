@@ -1,5 +1,6 @@
 #pragma once
-// An engine that stands in front of another one and changes some of its answers; all others are handed on.
+// An engine that stands in front of another one and changes some of its answers. All others are handed on, but for collision
+// records, redraws by domains, and what ends a run: a class derived from this one hands on those that it is to have.
 
 #include "simulation/any_engine.hpp"
 

@@ -52,8 +52,9 @@ class ClosePairs {
   }
 
   [[nodiscard]] std::size_t bytes() const {
-    return (first_.capacity() + cell_.capacity()) * sizeof(std::uint32_t) + sorted_.capacity() * sizeof(Sorted) +
-           built_.capacity() * sizeof(Vec2<double>) + close_.capacity() * sizeof(Close) + touching_.capacity() * sizeof(Touching);
+    return (first_.capacity() + cell_.capacity() + first_near_.capacity()) * sizeof(std::uint32_t) +
+           near_.capacity() * sizeof(Near) + sorted_.capacity() * sizeof(Sorted) + built_.capacity() * sizeof(Vec2<double>) +
+           close_.capacity() * sizeof(Close) + touching_.capacity() * sizeof(Touching);
   }
 
   template <class Archive>

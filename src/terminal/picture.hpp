@@ -18,9 +18,9 @@ struct TextArea {
 };
 
 /// The state with true radii (a disk smaller than a dot is one), walls and whatever else stands where it is, to scale and as
-/// large as fits into `room` with its frame: full lines are walls, broken ones periodic edges. Disks of the mean square speed are
-/// grey, slower ones blue, faster ones orange. All lines have the same width; there may be fewer of them than rows. Requires room
-/// for 8 x 4.
+/// large as fits into `room` with its frame: full lines are walls, broken ones periodic edges. Disks of the median speed in
+/// equilibrium are grey, slower ones blue, faster ones orange. All lines have the same width; there may be fewer of them than
+/// rows. Requires room for 8 x 4.
 [[nodiscard]] std::vector<std::string> terminal_picture(const Scene& scene, const Disks& disks, const State& state, TextArea room,
                                                         TerminalColours colours);
 

@@ -111,7 +111,7 @@ class Flight {
 
   /// Once they have parted, as much again is enough.
   void look_for_parting() {
-    if (shown_.distance.back() < parted_distance) return;
+    if (shown_.distance.back() < clearly_parted) return;
     const double enough = std::max(2.0 * shown_.times.back(), 10.0 * options_.free_time);
     if (enough >= until_) return;
     until_ = std::max(enough, shown_.until);
@@ -154,7 +154,7 @@ class Flight {
 
 std::optional<double> SideBySide::parted_at() const {
   for (std::size_t k = 0; k < distance.size(); ++k)
-    if (distance[k] >= parted_distance) return times[k];
+    if (distance[k] >= clearly_parted) return times[k];
   return {};
 }
 

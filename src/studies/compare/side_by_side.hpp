@@ -39,7 +39,7 @@ enum class ShownUntil {
 inline constexpr std::int64_t most_disks_side_by_side = 2000;
 
 /// Distance, in mean diameters, beyond which a disk meets other partners than on the other side.
-inline constexpr double parted_distance = 0.5;
+inline constexpr double clearly_parted = 0.5;
 
 struct SideBySideLimits {
   std::size_t numbers = 450'000;  ///< kept: six of a collision, three of a turn or an overlap; 5 MB of page
@@ -76,7 +76,7 @@ struct SideBySide {
   double energy_change_exact = 0.0;  ///< the largest at these times, as a share of the energy at the start
   double energy_change_stepped = 0.0;
 
-  [[nodiscard]] std::optional<double> parted_at() const;  ///< the first of `times` with a distance of `parted_distance`
+  [[nodiscard]] std::optional<double> parted_at() const;  ///< the first of `times` with a distance of `clearly_parted`
 };
 
 /// Flies both. Throws as make_simulation.
