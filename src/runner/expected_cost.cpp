@@ -51,10 +51,8 @@ std::vector<Part> parts_of(const Scene& scene) {
   std::vector<Part> parts;
   const Run& run = scene.run;
   if (run.equilibrate) {
-    const double disks = static_cast<double>(scene.disk_count());
-    parts.push_back(
-        {run.equilibrate->time.value_or(unlimited),
-         run.equilibrate->collisions_per_disk ? std::ceil(*run.equilibrate->collisions_per_disk * disks / 2.0) : unlimited});
+    const std::optional<std::uint64_t> collisions = run.equilibrate->pair_collisions(scene.disk_count());
+    parts.push_back({run.equilibrate->time.value_or(unlimited), collisions ? static_cast<double>(*collisions) : unlimited});
   }
   Part measured{run.time.value_or(unlimited), run.collisions ? static_cast<double>(*run.collisions) : unlimited};
   if (const auto& growth = scene.effects.growth; growth && growth->rate > 0.0 && growth->packing_fraction) {
@@ -65,19 +63,29 @@ std::vector<Part> parts_of(const Scene& scene) {
   return parts;
 }
 
-/// Returns the scene with its motion alone: without samples and changes, and with equilibration as part of the run.
+/// Returns all parts as one. It has no end where one part ends by its time and another by its collisions.
+Part sum_of(const std::vector<Part>& parts) {
+  Part sum{0.0, 0.0};
+  for (const Part& part : parts) sum.time += part.time, sum.collisions += part.collisions;
+  return sum;
+}
+
+bool has_end(const Part& part) { return part.time < unlimited || part.collisions < unlimited; }
+
+/// Returns the scene with its motion alone: without samples and changes, and with equilibration as part of the run; where all
+/// parts have no end in common, with the end of the measured part, for walls may move no longer.
 Scene trial_of(const Scene& scene) {
   Scene trial = scene;
   trial.changes.clear();
-  double time = 0.0, collisions = 0.0;
-  for (const Part& part : parts_of(scene)) time += part.time, collisions += part.collisions;
   trial.run.equilibrate.reset();
   trial.run.take_no_samples();
   trial.observe.clear();
+  const std::vector<Part> parts = parts_of(scene);
+  const Part end = has_end(sum_of(parts)) ? sum_of(parts) : parts.back();
   trial.run.time.reset();
   trial.run.collisions.reset();
-  if (collisions < 1e18) trial.run.collisions = static_cast<std::uint64_t>(collisions);
-  if (time < unlimited) trial.run.time = time;
+  if (end.collisions < 1e18) trial.run.collisions = static_cast<std::uint64_t>(end.collisions);
+  if (end.time < unlimited) trial.run.time = end.time;
   if (!trial.run.time && !trial.run.collisions) trial.run.time = latest;
   return trial;
 }
@@ -160,10 +168,11 @@ ExpectedCost Trial::run() {
   cost.trial_time = simulation_.time();
   if (result.stopped == StopReason::jammed || result.stopped == StopReason::collapsed || result.stopped == StopReason::overheated)
     cost.came_to_rest = to_string(result.stopped);
-  cost.whole = result.stopped != StopReason::interrupted && cost.came_to_rest.empty() && cost.trial_time < latest;
+  const std::vector<Part> parts = parts_of(scene_);
+  cost.whole = result.stopped != StopReason::interrupted && cost.came_to_rest.empty() && cost.trial_time < latest &&
+               has_end(sum_of(parts));
 
   const auto tried = static_cast<double>(cost.trial_collisions);
-  const std::vector<Part> parts = parts_of(scene_);
   if (cost.whole) {
     cost.collisions = tried;
     cost.seconds = cost.trial_seconds;

@@ -98,6 +98,19 @@ TEST(CheckCommand, SaysWhatTheRunWillCost) {
   EXPECT_TRUE(fs::is_empty(directory.path()));
 }
 
+TEST(CheckCommand, TakesScenesThatEquilibrateByCollisionsAndEndAtATime) {
+  const TemporaryDirectory directory;
+  write_text(directory.path() / "gas.toml",
+             "[box]\nx = [0.0, 20.0]\ny = [0.0, 20.0]\nboundary = \"walls\"\n"
+             "[[disks]]\ncount = 100\nradius = 0.5\nmass = 1.0\npositions = \"random\"\nvelocities = { temperature = 1.0 }\n"
+             "[collision]\nrule = \"specular\"\n[run]\ntime = 20.0\nequilibrate = { collisions_per_disk = 20 }\n");
+  for (const char* effect : {"thermostat={ temperature = 1.0, rate = 10.0 }", "walls.right={ velocity = -0.05 }"}) {
+    const Outcome outcome = run_carom(directory.path(), {"check", "gas.toml", "--set", effect});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, ContainsRegex("\n  cost        about .* on this machine for [0-9,]+ collisions \\(a trial run"));
+  }
+}
+
 TEST(CheckCommand, SaysWhatIsConservedBetweenChanges) {
   const TemporaryDirectory directory;
   const auto checked = [&](const std::string& change) {
