@@ -2,8 +2,9 @@
 // over time. With several species also for each pair of them.
 //
 // The contact value g(sigma+) of disks of one size comes from bins of their own next to contact: the cubic through them, taken at
-// contact. Each bin's count is compared with the cubic's integral over the bin, so the width of bins enters no further; the
-// cubic's own error is below 1e-3 where ln g bends over distances of sigma / 4, which it does up to freezing. It is a linear
+// contact. Each bin's count is compared with the cubic's integral over the bin, so the width of bins enters no further. The
+// cubic's own error is below 1e-3 where g falls by no more than exp(-1.7) over all bins. They reach to 1.25 sigma in a fluid, and
+// in a crystal to 1.7 times its mean gap between neighbours, over which g falls by about e. The value at contact is a linear
 // function of the counts, so blocking gives its error.
 
 #include "core/all_equal.hpp"
@@ -11,6 +12,7 @@
 #include "observe/close_pairs.hpp"
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"
+#include "scene/checks.hpp"
 #include "scene/contact_scales.hpp"
 
 #include <Eigen/QR>
@@ -81,10 +83,13 @@ class RadialDistribution final : public SavedObservable<RadialDistribution> {
     return all_equal(run.disks.radius) && contact_scales<double>(run.scene.effects, run.disks).additive();
   }
 
-  /// Distance, in diameters, up to which g is smooth: it jumps at the edges of the potential.
+  /// Returns the distance, in diameters, up to which a cubic can follow g: it jumps at the edges of the potential, and in a
+  /// crystal falls within the gap between neighbours, sqrt(closest packing / packing fraction) - 1.
   static double smooth_until(const ObservedRun& run) {
     const std::vector<PotentialStep> steps = run.scene.effects.potential_steps();
-    return steps.empty() ? 1.25 : std::min(1.25, steps.front().width);
+    const double gap = std::sqrt(detail::closest_packing / run.scene.packing_fraction()) - 1.0;
+    const double smooth = std::min(1.25, 1.0 + std::max(1.7 * gap, 1e-3));
+    return steps.empty() ? smooth : std::min(smooth, steps.front().width);
   }
 
   void sample(const State& state, const Totals&) override {

@@ -197,6 +197,25 @@ TEST(PhysicsErrors, OfWhatWallsGetAndOfDisplacementsAtLongLagsScatterAsTheySay) 
   }
 }
 
+/// The first peak of a crystal is as narrow as the gaps between neighbours, and the cubic through it has to follow.
+TEST(PhysicsCrystal, ContactValueIsThatOfThePressure) {
+  constexpr double N = 100.0, error_of_cubic = 1e-3;
+  for (const double eta : {0.74, 0.78, 0.82, 0.86, 0.89}) {
+    const Observed o = observe(
+        parse_scene(fmt::format(
+            "[box]\naspect = 1.1547005383792517\nboundary = \"periodic\"\n[[disks]]\ncount = 100\nradius = 0.5\nmass = 1.0\n"
+            "packing_fraction = {}\npositions = \"hexagonal\"\nvelocities = {{ temperature = 1.0 }}\n[collision]\n"
+            "rule = \"specular\"\n[run]\ntime = 100.0\nequilibrate = {{ collisions_per_disk = 100 }}\n[observe]\n"
+            "pressure = true\nradial_distribution = true\n",
+            eta)),
+        100.0);
+    const Value Z = of(o, "pressure", "Z"), contact = of(o, "radial_distribution", "contact");
+    const double g = (Z.value - 1.0) / (2.0 * eta) * N / (N - 1.0);
+    EXPECT_NEAR(contact.value, g, within * std::hypot(contact.error, Z.error / (2.0 * eta)) + error_of_cubic * g) << eta;
+    EXPECT_LT(contact.error, 0.015 * g) << eta;
+  }
+}
+
 /// Errors are neither too small nor too large: twenty runs, Z from each against the mean of all.
 TEST(PhysicsErrors, OfIndependentRunsScatterAsTheySay) {
   constexpr int runs = 24;
