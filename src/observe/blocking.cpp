@@ -13,8 +13,6 @@ namespace carom {
 
 namespace {
 constexpr std::uint64_t least_samples = 16;
-/// Below this many blocks their scatter says little: the error has an error of 1 / sqrt(2 (n - 1)), a quarter at 8.
-constexpr std::uint64_t least_blocks = 8;
 /// Correlations that are longer than blocks pass now and then for short ones, and with few blocks more often: the error is then
 /// far too small, which a mean forgives and a test does not.
 constexpr double least_for_halves = 16.0;
@@ -164,6 +162,13 @@ std::optional<Halves> Blocking::halves(std::span<const Level> levels, std::span<
   }
   const std::optional<Estimate> before = estimate(first, power, known), after = estimate(rest, power, known);
   if (!before || !after || !after->error || !after->statistical_inefficiency) return {};
+  // Sums of squares of the rest are differences: of a rest that does not scatter they are what rounding leaves.
+  const auto squares = [&](const Level& level) {
+    const double slope = power * after->mean * std::pow(rest[0].mean_w, power - 1);
+    return level.xx - 2.0 * slope * level.xw + slope * slope * level.ww;
+  };
+  constexpr double rounding = 1e-10;
+  if (!(squares(rest[0]) > rounding * (levels[0].xx + squares(levels[0])))) return {};
   // A few heavy samples among light ones scatter less than they should: one of a single event not at all.
   const double samples = static_cast<double>(rest[0].blocks);
   const double independent =

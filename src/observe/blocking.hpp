@@ -15,6 +15,9 @@ namespace carom {
 /// The entry of a table for an unknown number.
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
+/// Below this many blocks their scatter says little: the error has an error of 1 / sqrt(2 (n - 1)), a quarter at 8.
+inline constexpr std::uint64_t least_blocks = 8;
+
 /// The relative error up to which a number that counts rare events, or is a mean of squares, can be compared with itself: with
 /// fewer of them Student's t makes chance look rarer than it is. The mean of n squares of Gaussian numbers has the relative error
 /// sqrt(2 / n) and the skewness sqrt(8 / n), which is then at most 0.1.

@@ -18,7 +18,7 @@
 // In a circular box the grid divides the square round the circle. The area of a cell is that of its part inside the circle, which
 // is a column of the averages; a cell without any has no fields.
 //
-// Averages over time: of disks at the steps, of collisions over all the time between. The run is kept as up to thirty-two
+// Averages over time: of disks at the steps, of collisions over all the time between. The run is kept as up to thirty-one
 // stretches of equal length, each twice as long as before when there would be more. They are the fields in time, and errors come
 // from them by the jackknife. All cells together tell how far correlations reach from one stretch into the next.
 
@@ -352,7 +352,7 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
       for (std::size_t f = 0; f < names_.size(); ++f) {
         table.columns[first + 2 * f].values.push_back(all.mean[f]);
         table.columns[first + 2 * f + 1].values.push_back(count < least_for_errors ? unknown : std::sqrt(all.variance[f]));
-        correlations[f].add(all.mean[f], all.variance[f], all.covariance[f]);
+        if (std::isfinite(all.variance[f])) correlations[f].add(all.mean[f], all.variance[f], all.covariance[f]);
       }
     }
     for (std::size_t f = 0; f < (count < least_for_errors ? 0 : names_.size()); ++f) {
@@ -366,7 +366,8 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
     for (std::size_t c = 0; c < coming_.size(); ++c) {
       before.push_back(estimates(c, 0, begin));
       rest.push_back(estimates(c, begin, count));
-      for (std::size_t f = 0; f < names_.size(); ++f) of_rest[f].add(rest[c].mean[f], rest[c].variance[f], rest[c].covariance[f]);
+      for (std::size_t f = 0; f < names_.size(); ++f)
+        if (std::isfinite(rest[c].variance[f])) of_rest[f].add(rest[c].mean[f], rest[c].variance[f], rest[c].covariance[f]);
     }
     for (std::size_t f = 0; f < names_.size(); ++f) {
       const double factor = variance_by_correlated_blocks(of_rest[f].value(), count - begin);
@@ -380,13 +381,22 @@ class Fields final : public SavedObservable<Fields>, public ChangeFollower {
   }
 
   /// Returns the fields in a cell over the stretches from `begin` to before `end`, with variances by the jackknife over these.
+  /// They are unknown in a cell whose disks came in few of them.
   [[nodiscard]] FieldEstimates estimates(std::size_t c, std::size_t begin, std::size_t end) const {
     const auto steps_of = [&](std::size_t stretches) {
       return static_cast<double>(stretches) * static_cast<double>(steps_of_stretch_);
     };
     CellSums all;
-    for (std::size_t s = begin; s < end; ++s) all += stretches_[s][c];
+    double squares = 0.0;  // of numbers of disks
+    for (std::size_t s = begin; s < end; ++s) {
+      all += stretches_[s][c];
+      squares += stretches_[s][c].disks * stretches_[s][c].disks;
+    }
     FieldEstimates found{.mean = fields_of(all, steps_of(end - begin), step_, areas_[c])};
+    if (!(all.disks * all.disks >= static_cast<double>(least_blocks) * squares) || squares == 0.0) {
+      found.variance.fill(unknown);
+      return found;
+    }
     FieldValues before{};
     for (std::size_t s = begin; s < end; ++s) {
       CellSums others = all;
