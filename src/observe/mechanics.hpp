@@ -26,7 +26,8 @@ namespace carom {
 /// Returns kT of the spins, 2 sum of (I w^2 / 2) / N, I = m r^2 / 2; 0 where disks are smooth
 [[nodiscard]] double spin_temperature(const Disks& disks, const State& state);
 
-/// Velocities relative to the flow v_x = rate y and to the common motion. Requires positions inside the box.
+/// Returns velocities relative to the mean flow, where there is one, and to the motion of the centre of mass along axes where it
+/// is no heat. Requires positions inside the box where there is a flow.
 [[nodiscard]] Eigen::Matrix2Xd velocities_in_flow(const Box& box, const Effects& effects, const Disks& disks, const State& state);
 
 /// Returns the sum of m u_x u_y, u relative to the flow: the part of P_xy times the area that flight carries

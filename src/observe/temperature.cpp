@@ -1,25 +1,32 @@
 // kT of all disks, of each axis and of each species, over time.
 
 #include "observe/blocking.hpp"
+#include "observe/followers.hpp"
 #include "observe/mechanics.hpp"
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"
 
+#include <array>
 #include <vector>
 
 namespace carom {
 
 namespace {
 
-class Temperature final : public SavedObservable<Temperature> {
+class Temperature final : public SavedObservable<Temperature>, public ChangeFollower {
  public:
   Temperature(const ObservableRequest& request, const ObservedRun& run)
-      : SavedObservable(request, run), species_(run.species_count() > 1 ? run.species_count() : 0) {}
+      : SavedObservable(request, run), acting_(*run.acting), species_(run.species_count() > 1 ? run.species_count() : 0) {}
 
   [[nodiscard]] bool needs_positions() const override { return run_.has_flow(); }
 
+  void pass(const Change& /*change*/, const Effects& acting) override { acting_ = acting; }
+
   void sample(const State& state, const Totals&) override {
-    const Eigen::Matrix2Xd v = peculiar_velocities(run_, state);
+    const Box& box = run_.scene.box;
+    const Eigen::Matrix2Xd v = velocities_in_flow(box, acting_, run_.disks, state);
+    const std::array<bool, 2> is_thermal = {centre_of_mass_is_thermal(box, acting_, 0),
+                                            centre_of_mass_is_thermal(box, acting_, 1)};
     const double mass = run_.disks.total_mass();
     Eigen::Vector2d sum = Eigen::Vector2d::Zero(), freedom = Eigen::Vector2d::Zero();
     std::vector<double> sums(species_.size()), freedoms(species_.size());
@@ -27,7 +34,7 @@ class Temperature final : public SavedObservable<Temperature> {
       const double m = run_.disks.mass[i];
       const Eigen::Vector2d squares = m * v.col(static_cast<Eigen::Index>(i)).cwiseAbs2();
       Eigen::Vector2d share;  // what the common motion leaves a disk of its degrees of freedom
-      for (int axis = 0; axis < 2; ++axis) share[axis] = run_.centre_of_mass_is_thermal(axis) ? 1.0 : 1.0 - m / mass;
+      for (int axis = 0; axis < 2; ++axis) share[axis] = is_thermal[static_cast<std::size_t>(axis)] ? 1.0 : 1.0 - m / mass;
       sum += squares;
       freedom += share;
       if (species_.empty()) continue;
@@ -57,6 +64,7 @@ class Temperature final : public SavedObservable<Temperature> {
   }
 
  private:
+  Effects acting_;
   Blocking all_, x_, y_;
   std::vector<Blocking> species_;
 };

@@ -62,6 +62,28 @@ TEST(ObservedVelocities, TemperatureInAPeriodicBoxLeavesTheCommonMotionOut) {
   EXPECT_NEAR(o.value("temperature", "kT"), K / 39.0, rounding_of_means);  // equal masses: energy and momentum stay
 }
 
+TEST(ObservedVelocities, HHasNoErrorWhereNoTwoDisksShareABin) {
+  const Observed o =
+      observe(parse_scene("[box]\nx = [0.0, 9.0]\ny = [0.0, 9.0]\nboundary = \"periodic\"\n[[disks]]\nradius = 0.5\nmass = 1.0\n"
+                          "positions = [[1.0, 1.0], [4.0, 1.0], [7.0, 1.0]]\nvelocities = [[0.0, 1.0], [0.0, -1.0], [0.0, 3.0]]\n"
+                          "[collision]\nrule = \"specular\"\n[run]\ntime = 1.0\n[observe]\nh_function = { every = 0.5 }\n"),
+              0.5);
+  for (const double error : o.column("h_function", 0, "H_error")) EXPECT_TRUE(std::isnan(error));
+}
+
+/// Until the bath acts, N disks share the energy of 2 (N - 1) degrees of freedom; from then on of 2 N.
+TEST(ObservedVelocities, TemperatureIsThatOfTheEffectsThatActAtTheTime) {
+  std::string scene = small_fluid("temperature = { every = 0.1 }");
+  scene.insert(scene.find("[observe]"), "[[changes]]\ntime = 2.55\nset = [\"thermostat={ temperature = 1.0, rate = 1.0 }\"]\n");
+  const Observed o = observe(parse_scene(scene), 0.1);
+  double squares = 0.0, freedom = 0.0;
+  for (const State& state : o.record.states) {
+    squares += 1.5 * state.velocities.squaredNorm();
+    freedom += state.time < 2.55 ? 78.0 : 80.0;
+  }
+  EXPECT_NEAR(o.value("temperature", "kT"), squares / freedom, rounding_of_means);
+}
+
 TEST(ObservedVelocities, MomentsAreThoseOfTheStates) {
   const Observed& o = mixture();
   using V = Eigen::Vector2d;
@@ -117,30 +139,59 @@ TEST(ObservedVelocities, DensityProfileCountsTheDisksOfEachStrip) {
   EXPECT_NEAR(all, 32.0, rounding_of_means);
 }
 
-/// Of the state at the start, from a sorted list of bins in place of a grid of counts.
+using Bins = std::multiset<std::pair<int, int>>;
+
+/// H of disks in these bins of that width, less Miller's bias.
+double h_of(const Bins& bins, double width) {
+  const auto count = static_cast<double>(bins.size());
+  const std::set<std::pair<int, int>> distinct(bins.begin(), bins.end());
+  double h = -(static_cast<double>(distinct.size()) - 1.0) / (2.0 * count);
+  for (const auto& bin : distinct) {
+    const double share = static_cast<double>(bins.count(bin)) / count;
+    h += share * std::log(share / (width * width));
+  }
+  return h;
+}
+
+/// From a sorted list of bins in place of a grid of counts. The error is that of H without each disk in turn, and unknown where a
+/// species has no two disks in one bin.
 TEST(ObservedVelocities, HIsThatOfTheBinsThatVelocitiesFallInto) {
   const Observed& o = mixture();
-  const State& state = o.record.states.front();
   double kT = 0.0;
   for (std::size_t i = 0; i < o.disks.count(); ++i)
-    kT += 0.5 * o.disks.mass[i] * state.velocities.col(static_cast<Eigen::Index>(i)).squaredNorm() / 32.0;
-  double h = 0.0;
-  for (int s = 0; s < 2; ++s) {
-    const double width = 0.5 * std::sqrt(kT / (s == 0 ? 2.0 : 0.5)), count = s == 0 ? 12.0 : 20.0;
-    std::multiset<std::pair<int, int>> bins;
-    for (std::size_t i = 0; i < o.disks.count(); ++i) {
-      if (o.disks.species[i] != s) continue;
-      const Eigen::Vector2d v = state.velocities.col(static_cast<Eigen::Index>(i)) / width;
-      bins.insert({static_cast<int>(std::floor(v.x())), static_cast<int>(std::floor(v.y()))});
+    kT += 0.5 * o.disks.mass[i] * o.record.states.front().velocities.col(static_cast<Eigen::Index>(i)).squaredNorm() / 32.0;
+  int known = 0;
+  for (std::size_t row = 0; row < o.record.states.size(); ++row) {
+    double h = 0.0, variance = 0.0;
+    bool is_known = true;
+    for (int s = 0; s < 2; ++s) {
+      const double width = 0.5 * std::sqrt(kT / (s == 0 ? 2.0 : 0.5)), count = s == 0 ? 12.0 : 20.0;
+      Bins bins;
+      for (std::size_t i = 0; i < o.disks.count(); ++i) {
+        if (o.disks.species[i] != s) continue;
+        const Eigen::Vector2d v = o.record.states[row].velocities.col(static_cast<Eigen::Index>(i)) / width;
+        bins.insert({static_cast<int>(std::floor(v.x())), static_cast<int>(std::floor(v.y()))});
+      }
+      h += count / 32.0 * h_of(bins, width);
+      std::vector<double> without;
+      double mean = 0.0;
+      for (const auto& bin : bins) {
+        Bins others = bins;
+        others.erase(others.find(bin));
+        without.push_back(h_of(others, width));
+        mean += without.back() / count;
+      }
+      for (const double one : without) variance += std::pow(count / 32.0 * (one - mean), 2) * (count - 1.0) / count;
+      is_known = is_known && std::set<std::pair<int, int>>(bins.begin(), bins.end()).size() < bins.size();
     }
-    const std::set<std::pair<int, int>> distinct(bins.begin(), bins.end());
-    for (const auto& bin : distinct) {
-      const double share = static_cast<double>(bins.count(bin)) / count;
-      h += count / 32.0 * share * std::log(share / (width * width));
-    }
-    h -= count / 32.0 * (static_cast<double>(distinct.size()) - 1.0) / (2.0 * count);
+    EXPECT_NEAR(o.column("h_function", 0, "H")[row], h, rounding_of_means);
+    const double error = o.column("h_function", 0, "H_error")[row];
+    EXPECT_EQ(!std::isnan(error), is_known) << row;
+    if (!is_known) continue;
+    EXPECT_NEAR(error, std::sqrt(variance), rounding_of_means);
+    ++known;
   }
-  EXPECT_NEAR(o.column("h_function", 0, "H")[0], h, rounding_of_means);
+  EXPECT_GT(known, 10);
   EXPECT_EQ(o.column("h_function", 0, "time")[0], 0.0);
   EXPECT_NEAR(o.column("h_function", 0, "time")[7], 0.35, rounding_of_means);
 }
