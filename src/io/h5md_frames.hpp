@@ -19,6 +19,7 @@ class H5mdFrames {
 
   /// Throws Hdf5Error, also where a disk has crossed the periodic edges more than 2^31 times. `positions` are those to write:
   /// the state's, or unwrapped ones.
+  void set_effects(const Effects& acting) { observables_.set_effects(acting); }
   void append(std::uint64_t k, const Disks& disks, const State& state, const Totals& totals, const Eigen::Matrix2Xd& positions);
   void write();  ///< hands everything to HDF5
   void close();

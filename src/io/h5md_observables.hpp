@@ -20,6 +20,8 @@ class H5mdObservables {
   /// Requires particles/trajectory/position/step and time to be in the file. Throws Hdf5Error, as every function here.
   H5mdObservables(hid_t file, const Scene& scene, const Disks& disks);
 
+  /// Says which effects act from now on: those of the scene have all that its changes bring, and are for the choice of columns.
+  void set_effects(const Effects& acting) { effects_ = acting; }
   void append(const Disks& disks, const State& state, const Totals& totals);  ///< requires positions inside the box
   void write();                                                               ///< hands everything to HDF5
   void close();

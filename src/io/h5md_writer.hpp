@@ -36,6 +36,10 @@ class H5mdWriter {
 
   /// The beginning of the measured run, for the event log; `temperature` is what observables refer to (ObservedRun::temperature).
   void start(const State& state, double temperature);
+  /// Says which effects act from now on; before it is called, all of the scene's do.
+  void set_effects(const Effects& acting) {
+    if (frames_) frames_->set_effects(acting);
+  }
   /// A state, and the totals up to then.
   void sample(std::uint64_t k, const State& state, const Totals& totals) { sample(k, state, totals, state.positions); }
   /// Writes a sample with other positions, unwrapped ones, in place of those of `state`.

@@ -137,6 +137,10 @@ void RunWriter::start(const State& state, double temperature) {
   if (h5md_) h5md_->start(state, temperature);
 }
 
+void RunWriter::set_effects(const Effects& acting) {
+  if (h5md_) h5md_->set_effects(acting);
+}
+
 void RunWriter::sample(std::uint64_t k, const State& state, const Totals& totals) {
   const State* written = &state;
   if (unwrapped_) {

@@ -45,6 +45,8 @@ class RunWriter {
   /// The measured run begins; `temperature` is what observables refer to (ObservedRun::temperature). What is analysed afterwards
   /// needs both.
   void start(const State& state, double temperature);
+  /// Says which effects act from now on; before it is called, all of the scene's do, those of its changes too.
+  void set_effects(const Effects& acting);
   /// A state, and the totals up to then.
   void sample(std::uint64_t k, const State& state, const Totals& totals);
   void events(std::span<const Event> events);

@@ -49,6 +49,7 @@ RunnerOutcome Runner::run(const RunnerHooks& hooks) {
 }
 
 RunResult Runner::simulate(const RunnerHooks& hooks) {
+  if (writer_) writer_->set_effects(simulation_.scene().effects);
   RunHooks schedule;
   schedule.verify_every = options_.verify_every;
   schedule.start = [&](const State& start) {
@@ -65,7 +66,10 @@ RunResult Runner::simulate(const RunnerHooks& hooks) {
   };
   if (writer_ && scene_.output.events) schedule.events = [&](std::span<const Event> events) { writer_->events(events); };
   schedule.block = [&](const Progress& progress) { measurements_.block(progress); };
-  schedule.change = [&](bool made) { measurements_.change(made); };
+  schedule.change = [&](bool made) {
+    measurements_.change(made);
+    if (made && writer_) writer_->set_effects(simulation_.scene().effects);
+  };
   schedule.proceed = [&](const Progress& progress) {
     stopped_ = hooks.proceed && !hooks.proceed(progress);
     return !stopped_;

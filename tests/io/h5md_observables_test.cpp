@@ -129,6 +129,26 @@ TEST_F(H5mdObservables, NoDisksHaveNoSpins) {
   EXPECT_THAT(file.extents("/observables/walls/value"), ElementsAre(2, 4));
 }
 
+TEST_F(H5mdObservables, AreThoseOfTheEffectsThatActAtTheTime) {
+  Scene scene = scene_of(3, 2);
+  scene.effects.thermostat = Thermostat{.temperature = 1.0, .rate = 1.0};  // which a change brings
+  scene.box.boundary = {Boundary::periodic, Boundary::periodic};
+  const State state = state_at(3, scene);
+  {
+    RunWriter writer(RunDirectory(temporary_.path() / "out", false), scene, hand_made_disks(scene), provenance());
+    writer.set_effects({});
+    writer.sample(0, state, {});
+    writer.set_effects(scene.effects);
+    writer.sample(1, state, {});
+    writer.finish(hand_made_report(scene));
+  }
+  const H5Reader file(temporary_.path() / "out/trajectory.h5md");
+  const double before = kinetic_temperature(scene.box, {}, hand_made_disks(scene), state),
+               after = kinetic_temperature(scene.box, scene.effects, hand_made_disks(scene), state);
+  EXPECT_NE(before, after);
+  EXPECT_THAT(file.doubles("/observables/temperature/value"), ElementsAre(before, after));
+}
+
 TEST_F(H5mdObservables, AreThoseOfTheStateWhereUnwrappedPositionsAreWritten) {
   Scene scene = scene_of(3, 2);
   scene.box.boundary = {Boundary::periodic, Boundary::periodic};
