@@ -148,20 +148,22 @@ void write_checkpoint(const RunDirectory& directory, const CheckpointFacts& fact
                       const std::vector<CheckpointPart>& parts) {
   const detail::SilentHdf5 silent;
   const fs::path partial = directory.partial_name(checkpoint_name);
-  detail::Hdf5File under;
-  std::string reason;
-  try {
-    write_body(under, partial, facts, state, parts);
-  } catch (const detail::Hdf5Error& error) {
-    reason = error.what();
-  }
   std::error_code ignored;
-  if (under.error() != 0 || !reason.empty()) {
-    fs::remove(partial, ignored);
+  try {
+    detail::Hdf5File under;
+    std::string reason;
+    try {
+      write_body(under, partial, facts, state, parts);
+    } catch (const detail::Hdf5Error& error) {
+      reason = error.what();
+    }
     if (under.error() != 0) throw detail::system_error(partial, "write", under.error());
-    throw OutputError(fmt::format("{}: cannot write: {}", partial.string(), reason));
+    if (!reason.empty()) throw OutputError(fmt::format("{}: cannot write: {}", partial.string(), reason));
+    write_head(partial);
+  } catch (...) {
+    fs::remove(partial, ignored);
+    throw;
   }
-  write_head(partial);
   fs::rename(directory.final_name(checkpoint_name), directory.final_name(previous_checkpoint_name), ignored);
   directory.publish(checkpoint_name);
 }

@@ -54,6 +54,7 @@ void TextFile::end_record() {
 }
 
 void TextFile::flush() {
+  if (failed_ != 0) throw failure();  // what came after the failure is not in the file, whatever has become of the disk
   std::size_t done = 0;
   while (done < buffer_.size() && descriptor_ >= 0) {
     const ssize_t count = ::write(descriptor_, buffer_.data() + done, buffer_.size() - done);
@@ -73,10 +74,15 @@ void TextFile::close() {
 
 void TextFile::fail(int error_number) {
   // A torn last record would only make readers stumble. If even the cut fails, the first error is still the one to report.
-  const bool cut = ::ftruncate(descriptor_, static_cast<off_t>(written_record_end_)) == 0;
+  whole_ = ::ftruncate(descriptor_, static_cast<off_t>(written_record_end_)) == 0;
   ::close(std::exchange(descriptor_, -1));
   buffer_.clear();
-  throw system_error(path_, "write", error_number, cut && written_record_end_ > 0 ? "what it holds is whole and readable" : "");
+  failed_ = error_number;
+  throw failure();
+}
+
+OutputError TextFile::failure() const {
+  return system_error(path_, "write", failed_, whole_ && written_record_end_ > 0 ? "what it holds is whole and readable" : "");
 }
 
 }  // namespace carom::detail

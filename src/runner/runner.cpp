@@ -117,6 +117,9 @@ void Runner::save(const SavingMoment& moment, const RunnerHooks& hooks) {
                               .verify = options_.verify_every,
                               .checkpoint_every = options_.checkpoint_every.value_or(""),
                               .report = options_.report};
+  // First, while no checkpoint takes the room: without all of its results no run is to go on.
+  std::ostringstream files;
+  writer_->save(files);
   std::vector<CheckpointPart> parts = {{"simulation", [&](std::ostream& out) { simulation_.save(out); }},
                                        {"schedule", moment.save},
                                        {"measurements",
@@ -125,7 +128,7 @@ void Runner::save(const SavingMoment& moment, const RunnerHooks& hooks) {
                                           archive(measurements_);
                                         }},
                                        {"observables", [&](std::ostream& out) { observation_->save(out); }},
-                                       {"files", [&](std::ostream& out) { writer_->save(out); }}};
+                                       {"files", [&](std::ostream& out) { out << files.view(); }}};
   if (start_)
     parts.push_back({"start", [&](std::ostream& out) {
                        SavingArchive archive(out);
@@ -136,8 +139,9 @@ void Runner::save(const SavingMoment& moment, const RunnerHooks& hooks) {
   try {
     write_checkpoint(*directory_, facts, simulation_.state(), parts);
     saved_ = true;
+    told_unsaved_ = false;
   } catch (const OutputError& error) {  // the run may still come to its end
-    if (hooks.warn) hooks.warn(fmt::format("{}; the run goes on unsaved", error.what()));
+    if (hooks.warn && !std::exchange(told_unsaved_, true)) hooks.warn(fmt::format("{}; the run goes on unsaved", error.what()));
   }
 }
 

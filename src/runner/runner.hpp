@@ -104,7 +104,8 @@ class Runner {
   std::uint64_t saved_collisions_;
   bool stopped_ = false;
   bool saved_ = false;
-  bool extended_ = false;  ///< the run had come to its end before
+  bool told_unsaved_ = false;  ///< since the last checkpoint that could be written
+  bool extended_ = false;      ///< the run had come to its end before
 };
 
 }  // namespace carom

@@ -139,6 +139,33 @@ TEST(FullDiskOfARun, StopsTheRunAndKeepsWholeSamplesInEveryPartialFile) {
   }
 }
 
+/// After a write that failed the file has a gap. Who caught that failure, and went on, must not end with a whole run.
+TEST(FullDiskOfARun, IsNotForgottenByWhatComesLater) {
+  const TemporaryDirectory temporary;
+  Scene scene = scene_of(20, 20);
+  scene.output = {.trajectory = false, .csv = true};
+  const fs::path message = temporary.path() / "message";
+  const fs::path out = temporary.path() / "out";
+  const int status = in_child(message, [&] {
+    limit_file_size(300'000);
+    RunWriter writer(RunDirectory(out, false), scene, hand_made_disks(scene), provenance());
+    for (std::uint64_t k = 0; k < 1000; ++k) {
+      writer.sample(k, state_at(k, scene), {});
+      try {
+        std::ostringstream saved;
+        if (k % 10 == 9) writer.save(saved);
+      } catch (const OutputError&) {
+        limit_file_size(3'000'000);  // there is room again
+      }
+    }
+    writer.finish(hand_made_report(scene));
+  });
+  ASSERT_TRUE(WIFEXITED(status)) << "killed by signal " << WTERMSIG(status);
+  EXPECT_EQ(WEXITSTATUS(status), ended_with_output_error);
+  EXPECT_THAT(text_of(message), HasSubstr("samples.csv.partial: cannot write: File too large"));
+  EXPECT_FALSE(fs::exists(out / "summary.json"));
+}
+
 TEST(FullDiskOfARun, IsNoticedWhenOnlyTheSummaryIsTooMuch) {
   const TemporaryDirectory temporary;
   Scene scene = scene_of(1, 0);
