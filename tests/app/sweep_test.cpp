@@ -301,6 +301,30 @@ TEST_F(ScenesSweep, ACheckpointThatIsNoneOrOfAnotherSceneIsNotGoneOnFrom) {
   EXPECT_THAT(checkpoints(), IsEmpty());
 }
 
+TEST_F(ScenesLongSweep, ARunThatCannotGoOnKeepsItsCheckpoint) {
+  write_text(file("gas-sweep.toml"), "scene = \"gas.toml\"\n[grid]\nrun.time = [5000.0]\n");
+  ASSERT_EQ(sweep({"-q"}).exit_code, 0);
+  const Bytes whole = results();
+  clear();
+  const std::string run = "gas-sweep/time=5000.0/seed=1/";
+  EXPECT_EQ(sweep({},
+                  [&](pid_t child) {
+                    EXPECT_TRUE(wait_until([&] { return fs::exists(file(run + "trajectory.h5md.partial")); }));
+                    kill(child, SIGINT);
+                  })
+                .exit_code,
+            130);
+  const std::string saved = text_of(file(run + "checkpoint.h5"));
+  ASSERT_FALSE(saved.empty());
+  // No file beyond some kilobytes: what the run goes on to write does not fit.
+  const Outcome full =
+      run_program(directory_.path(), {"sh", "-c", "ulimit -f 16; exec \"$0\" sweep gas-sweep.toml -q", CAROM_PROGRAM});
+  EXPECT_NE(full.exit_code, 0);
+  EXPECT_EQ(text_of(file(run + "checkpoint.h5")), saved);
+  EXPECT_EQ(sweep({"-q"}).exit_code, 0);
+  EXPECT_EQ(results(), whole);
+}
+
 TEST_F(ScenesSweep, RunsSaveThemselvesWhereAskedTo) {
   refused({"sweep", "gas-sweep.toml", "--checkpoint-every", "often"}, "--checkpoint-every");
   ASSERT_EQ(sweep({"-q", "--checkpoint-every", "1h"}).exit_code, 0);

@@ -123,7 +123,12 @@ std::string failure_of(int status, const Child& child) {
   return said.empty() ? fmt::format("the run ended with exit code {}", WEXITSTATUS(status)) : said;
 }
 
-RunEnd run_child(const Words& words, const StopRequest& stop, const std::function<bool()>& tick) {
+struct ChildEnd {
+  RunEnd end;
+  bool refused = false;  ///< whether the child found its command line, its scene or its files wrong, and ran nothing
+};
+
+ChildEnd run_child(const Words& words, const StopRequest& stop, const std::function<bool()>& tick) {
   Child child(words);
   bool stopped = false;
   constexpr int between_ticks = 100;  // ms
@@ -134,9 +139,11 @@ RunEnd run_child(const Words& words, const StopRequest& stop, const std::functio
     stopped = true;
   }
   const int status = child.process().wait();
-  if (WIFEXITED(status) && WEXITSTATUS(status) == exit_done) return {.finished = true};
-  if (stopped || stop.made()) return {};  // Ctrl-C comes to the child too, perhaps sooner
-  return {.failure = failure_of(status, child)};
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  if (code == exit_done) return {{.finished = true}};
+  if (stopped || stop.made()) return {};    // Ctrl-C comes to the child too, perhaps sooner
+  if (code == exit_interrupted) return {};  // a signal that came to it alone, such as SIGXCPU: it has saved itself
+  return {{.failure = failure_of(status, child)}, code == exit_usage};
 }
 
 }  // namespace
@@ -144,10 +151,15 @@ RunEnd run_child(const Words& words, const StopRequest& stop, const std::functio
 RunEnd carry_out(const RunOrder& order, const StopRequest& stop, const std::function<bool()>& tick) {
   RunEnd end;
   try {
-    if (prepare(order)) end = run_child(words_to_resume(order), stop, tick);
-    // A checkpoint of another program, or a damaged one, is no reason to do without the run.
-    const bool to_run = !end.finished && !stop.made() && tick();
-    if (to_run) end = run_child(words_to_run(order), stop, tick);
+    bool to_run = true;
+    if (prepare(order)) {
+      const ChildEnd resumed = run_child(words_to_resume(order), stop, tick);
+      // A checkpoint of another program, or a damaged one, is no reason to do without the run. Whatever else ends it, such as a
+      // full disk or a kill, leaves the checkpoint good.
+      to_run = resumed.refused && !stop.made() && tick();
+      end = resumed.end;
+    }
+    if (to_run) end = run_child(words_to_run(order), stop, tick).end;
   } catch (const std::exception& error) {
     end.failure = error.what();
   }
@@ -176,7 +188,11 @@ void run_in_threads(int threads, const RunDesk& desk, const std::function<RunEnd
     }
   };
   std::vector<std::future<void>> others;
-  for (int k = 1; k < threads; ++k) others.push_back(std::async(std::launch::async, carry_out_all));
+  try {
+    for (int k = 1; k < threads; ++k) others.push_back(std::async(std::launch::async, carry_out_all));
+  } catch (const std::system_error&) {
+    // The system gives no more threads: fewer runs go on at a time.
+  }
   carry_out_all();
   for (std::future<void>& other : others) other.get();
 }

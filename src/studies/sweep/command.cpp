@@ -84,8 +84,15 @@ class Desk {
         checkpoint_every_(std::move(checkpoint_every)) {}
 
   [[nodiscard]] RunDesk open() {
-    return {.next = [this] { return next(); }, .done = [this](const RunOrder&, const RunEnd& end) { progress_.ended(end); }};
+    return {.next = [this] { return next(); },
+            .done =
+                [this](const RunOrder& order, const RunEnd& end) {
+                  progress_.ended(end);
+                  if (failure_.empty() && !end.failure.empty()) failure_ = order.directory.string() + ": " + end.failure;
+                }};
   }
+  /// Returns what went wrong in the first run that failed; empty where none did.
+  [[nodiscard]] const std::string& failure() const { return failure_; }
 
  private:
   std::optional<RunOrder> next() {
@@ -106,6 +113,7 @@ class Desk {
   const StopRequest& stop_;
   SweepProgress& progress_;
   std::string checkpoint_every_;
+  std::string failure_;
   std::size_t at_ = 0;
 };
 
@@ -173,10 +181,12 @@ ExitCode sweep_scene(const SweepCommandOptions& options, const Invocation& invoc
   const StopRequest stop;
   const RunDirectory directory = open_study(path, false, true, {}, LockHolder::process_and_children);
   const std::vector<std::size_t> runs = runs_to_do(sweep, path, options.force);
+  std::string failure;
   {
     SweepProgress progress(mode, sweep.run_count(), sweep.run_count() - runs.size());
     Desk desk(sweep, path, runs, stop, progress, options.checkpoint_every);
     run_all(desk, std::min(threads, std::max(1, static_cast<int>(runs.size()))), server, stop, progress);
+    failure = desk.failure();
   }
   const SweepResults results = collect(sweep, path);
   write_product(directory, "runs.csv", runs_csv(sweep, results));
@@ -196,6 +206,12 @@ ExitCode sweep_scene(const SweepCommandOptions& options, const Invocation& invoc
     fmt::print(stderr, "carom: {}: these runs were made by {} versions of carom; report.html names them\n", sweep.source,
                results.versions.size());
   const std::size_t finished = results.count(RunState::finished), failed = results.count(RunState::failed);
+  // A failure that no file tells of, because none can be written there.
+  const bool is_untold = finished + failed < sweep.run_count() && !stop.made() && failed == 0 && !failure.empty();
+  if (is_untold) {
+    fmt::print(stderr, "carom: {}: {} of {} runs are finished; {}\n", sweep.source, finished, sweep.run_count(), failure);
+    return exit_failed;
+  }
   if (finished + failed < sweep.run_count()) {
     fmt::print(stderr, "carom: {}: interrupted; {} of {} runs are finished, and the same command goes on from there\n",
                sweep.source, finished, sweep.run_count());
