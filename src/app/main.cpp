@@ -6,6 +6,7 @@
 #include "app/mpi_processes.hpp"
 #endif
 #include "terminal/processes.hpp"
+#include "terminal/standard_output.hpp"
 
 #include <fmt/format.h>
 #include <carom/scene.hpp>
@@ -13,15 +14,15 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <csignal>
 #include <cstdio>
-#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <system_error>
 
 namespace {
 
@@ -46,6 +47,11 @@ ExitCode run_program(int argc, char** argv) {
   } catch (const std::filesystem::filesystem_error& error) {
     const std::string path = error.path1().empty() ? "the current directory" : error.path1().string();
     return complain(exit_usage, (path + ": " + error.code().message()).c_str());
+  } catch (const std::system_error& error) {  // of fmt::print, which says nothing of where
+    constexpr std::string_view of_printing = "cannot write to file: ";
+    const std::string_view sentence = error.what();
+    if (!sentence.starts_with(of_printing)) return complain(exit_failed, error.what());
+    return complain(exit_failed, fmt::format("cannot write to standard output: {}", sentence.substr(of_printing.size())).c_str());
   } catch (const std::exception& error) {
     return complain(exit_failed, error.what());
   } catch (...) {
@@ -73,10 +79,10 @@ int main(int argc, char** argv) {
 #endif
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is then an error like a full disk, with a sentence
   const ExitCode code = run_program(argc, argv);
-  // A full disk behind a redirection shows itself only here.
-  if (std::fflush(stdout) != 0 && code == exit_done) {
-    std::fprintf(stderr, "carom: cannot write to standard output: %s\n", std::strerror(errno));
-    return exit_failed;
+  try {
+    flush_output();
+  } catch (const std::runtime_error& error) {
+    if (code == exit_done) return complain(exit_failed, error.what());
   }
   return code;
 }

@@ -1,6 +1,7 @@
 #include "terminal/reading_process.hpp"
 
 #include "terminal/signals.hpp"
+#include "terminal/standard_output.hpp"
 
 #include <fmt/format.h>
 #include <sys/prctl.h>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -93,7 +95,9 @@ ExitCode in_reading_process(const fs::path& file, const std::function<ExitCode()
     signal(SIGTTOU, SIG_IGN);  // it may write to the terminal of the parent
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (getppid() != parent) return exit_failed;
-    return command();
+    const ExitCode code = command();
+    flush_output();
+    _exit(code);  // what the caller does next, the parent does
   }
   setpgid(child, child);  // before any signal, in either order of the two processes
   const HandOn hand_on_signals(child);
@@ -107,9 +111,17 @@ ExitCode in_reading_process(const fs::path& file, const std::function<ExitCode()
           fmt::format("{}: the process that read it was killed; perhaps there is not enough memory", file.string()));
     case SIGPROF:
       throw UsageError(fmt::format("{}: reading it does not end, so it is damaged; run the scene again", file.string()));
-    default:
+    case SIGSEGV:
+    case SIGBUS:
+    case SIGABRT:
+    case SIGFPE:
+    case SIGILL:
       throw UsageError(fmt::format("{}: reading it ends in a crash ({}), so it is damaged; run the scene again", file.string(),
                                    strsignal(number)));
+    default:  // such as SIGPIPE, where nobody reads what it says: this process ends in the same way
+      std::signal(number, SIG_DFL);
+      std::raise(number);
+      return exit_failed;
   }
 }
 

@@ -9,9 +9,9 @@
 
 namespace carom::cli {
 
-/// Does `command`, which reads `file`, in a child process, and returns what it returns: the caller goes on twice, in the child
-/// and then in the parent. Throws UsageError in the parent where the child has crashed, or a ReadingLimit has ended it. Requires
-/// a process of one thread.
+/// Does `command`, which reads `file`, in a child process, and returns what it returns. What it throws is thrown in the child,
+/// and nothing in the parent, which returns the code with which the child has ended. Throws UsageError in the parent where the
+/// child has crashed, or a ReadingLimit has ended it. Requires a process of one thread.
 ExitCode in_reading_process(const std::filesystem::path& file, const std::function<ExitCode()>& command);
 
 /// While one of these lives, the process may take 20 seconds of a processor and what a megabyte per second needs for the file or

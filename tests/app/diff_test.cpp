@@ -62,6 +62,17 @@ TEST_F(DiffCommand, OfNaiveStepsFindsWhereTheyPart) {
   EXPECT_THAT(carom({"diff", "naive", "a"}).out, HasSubstr("the first collision that differs:"));
 }
 
+/// 1 would say that they differ.
+TEST_F(DiffCommand, WhoseOutputIsLostIsTwo) {
+  ASSERT_EQ(carom({"run", "gas.toml", "-q"}).exit_code, 0);
+  for (const char* form : {"", "--json"}) {
+    const Outcome outcome = run_program(
+        directory_.path(), {"sh", "-c", std::string("exec \"$0\" diff gas gas ") + form + " > /dev/full", CAROM_PROGRAM});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("cannot write to standard output: No space left on device"));
+  }
+}
+
 TEST_F(DiffCommand, WithoutALogSaysSo) {
   run_into("b");
   EXPECT_THAT(carom({"diff", "a", "b"}).out, HasSubstr("collisions: not compared; b has no event log"));

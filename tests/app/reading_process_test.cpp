@@ -44,6 +44,20 @@ TEST(ReadingProcessTest, ReturnsWhatTheCommandReturns) {
   EXPECT_EXIT(run([]() -> ExitCode { throw UsageError("no such file"); }), ExitedWithCode(2), "^usage: no such file\n$");
 }
 
+TEST(ReadingProcessTest, WhatComesAfterItIsDoneOnce) {
+  EXPECT_EXIT(
+      {
+        const ExitCode code = in_reading_process("some.h5md", [] { return exit_check_failed; });
+        std::fputs("once\n", stderr);
+        std::exit(code);
+      },
+      ExitedWithCode(4), "^once\n$");
+}
+
+TEST(ReadingProcessTest, ASignalThatSaysNothingOfTheFileIsPassedOn) {
+  EXPECT_EXIT(run([] { return raised(SIGPIPE); }), ::testing::KilledBySignal(SIGPIPE), "^$");
+}
+
 TEST(ReadingProcessTest, ACrashIsOneSentence) {
   for (const int number : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE})
     EXPECT_EXIT(run([=] { return raised(number); }), ExitedWithCode(2),

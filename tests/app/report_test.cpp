@@ -44,6 +44,20 @@ TEST_F(ReportCommand, ARunThatIsToldToMakesTheSamePage) {
   EXPECT_EQ(text_of(file("again.html")), page);
 }
 
+TEST_F(ReportCommand, IsOpenedOnce) {
+  ASSERT_EQ(carom({"run", "gas.toml", "-q"}).exit_code, 0);
+  fs::create_directory(file("bin"));
+  write_text(file("bin/xdg-open"), "#!/bin/sh\necho \"$1\" >> opened\n");
+  fs::permissions(file("bin/xdg-open"), fs::perms::owner_all);
+  const std::string path = "PATH=" + file("bin").string() + ":/bin:/usr/bin";
+  for (const char* command : {"report", "play"}) {
+    EXPECT_EQ(run_program(directory_.path(), {"env", path, CAROM_PROGRAM, command, "gas", "--open", "-q"}).exit_code, 0);
+    const std::string opened = text_of(file("opened"));
+    EXPECT_EQ(std::count(opened.begin(), opened.end(), '\n'), 1) << opened;
+    fs::remove(file("opened"));
+  }
+}
+
 TEST_F(ReportCommand, ARunOutlivesItsReport) {
   // No file beyond half a megabyte: enough for the run, and not for the page.
   const Outcome outcome =

@@ -125,9 +125,13 @@ TEST(Usage, VersionNamesVersionCommitAndCompiler) {
 }
 
 TEST(Usage, FullStandardOutputIsAFailure) {
-  const int status = std::system("'" CAROM_PROGRAM "' init --list > /dev/full 2> /dev/null");
-  ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 1);
+  const TemporaryDirectory directory;
+  for (const char* words : {"init --list", "hardcases --list", "hardcases --json corner_hit", "hardcases corner_hit"}) {
+    const Outcome outcome =
+        run_program(directory.path(), {"sh", "-c", std::string("exec \"$0\" ") + words + " > /dev/full", CAROM_PROGRAM});
+    EXPECT_EQ(outcome.exit_code, 1) << words;
+    EXPECT_THAT(outcome.err, StartsWith("carom: cannot write to standard output: ")) << words;
+  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "studies/diff/command.hpp"
 #include "studies/diff/text.hpp"
 #include "terminal/reading_process.hpp"
+#include "terminal/standard_output.hpp"
 
 #include <fmt/format.h>
 
@@ -24,11 +25,7 @@ DiffRun opened(const std::string& path) {
 ExitCode print_difference(const DiffCommandOptions& options) {
   const RunDifference found = difference_of(opened(options.first), opened(options.second));
   if (options.quiet) return found.same() ? exit_equal : exit_different;
-  if (options.json) {
-    fmt::print("{}\n", diff_json(found));
-  } else {
-    fmt::print("{}", diff_text(found));
-  }
+  print_whole(options.json ? diff_json(found) + "\n" : diff_text(found));
   return found.same() ? exit_equal : exit_different;
 }
 
