@@ -6,6 +6,7 @@
 #include "app/command_options.hpp"
 #include "app/manual_viewer.hpp"
 #include "text/numbers.hpp"
+#include "text/shell.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

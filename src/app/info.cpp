@@ -7,6 +7,7 @@
 #include "io/checkpoint.hpp"
 #include "io/run_directory.hpp"
 #include "terminal/reading_process.hpp"
+#include "text/methods.hpp"
 #include "text/numbers.hpp"
 
 #include <fmt/format.h>

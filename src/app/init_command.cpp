@@ -4,6 +4,7 @@
 #include "scene/presets.hpp"
 #include "terminal/output_paths.hpp"
 #include "text/numbers.hpp"
+#include "text/shell.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -7,7 +7,7 @@
 #include "app/terminal_summary.hpp"
 #include "io/provenance.hpp"
 #include "io/run_directory.hpp"
-#include "text/numbers.hpp"
+#include "text/methods.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

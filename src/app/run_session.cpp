@@ -12,6 +12,7 @@
 #include "terminal/progress.hpp"
 #include "terminal/signals.hpp"
 #include "text/numbers.hpp"
+#include "text/shell.hpp"
 
 #include <fmt/format.h>
 

@@ -10,7 +10,9 @@
 #include "studies/horizon/json.hpp"
 #include "studies/horizon/report.hpp"
 #include "terminal/observed_lines.hpp"
+#include "text/methods.hpp"
 #include "text/numbers.hpp"
+#include "text/shell.hpp"
 #include "text/table.hpp"
 
 #include <fmt/format.h>

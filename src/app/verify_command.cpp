@@ -10,7 +10,8 @@
 #include "terminal/output_paths.hpp"
 #include "terminal/processes.hpp"
 #include "terminal/reading_process.hpp"
-#include "text/numbers.hpp"
+#include "text/methods.hpp"
+#include "text/shell.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -6,6 +6,7 @@
 #include "scene/document.hpp"
 #include "scene/known_keys.hpp"
 #include "text/numbers.hpp"
+#include "text/shell.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

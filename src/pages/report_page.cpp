@@ -6,6 +6,7 @@
 #include "pages/report_parts.hpp"
 #include "pages/scene_words.hpp"
 #include "pages/summary_rows.hpp"
+#include "text/methods.hpp"
 #include "text/numbers.hpp"
 #include "theory/equation_of_state.hpp"
 

@@ -72,33 +72,6 @@ std::string counted(std::uint64_t number, std::string_view thing) {
   return fmt::format("{} {}{}", grouped(number), thing, number == 1 ? "" : "s");
 }
 
-std::string method_words(const std::string& name, std::optional<double> time_step, std::optional<double> stiffness) {
-  std::string words = name;
-  if (time_step) words += fmt::format(", dt = {:g}", *time_step);
-  if (stiffness) words += fmt::format(", stiffness = {:g}", *stiffness);
-  return words;
-}
-
-std::string method_options(const std::string& name, std::optional<double> time_step, std::optional<double> stiffness) {
-  if (!time_step) return "--engine " + name;
-  const std::string options = fmt::format("--method {} --dt {}", name, *time_step);
-  return stiffness ? fmt::format("{} --stiffness {}", options, *stiffness) : options;
-}
-
-std::string shell_quoted(const std::string& text) {
-  constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,:/@%";
-  if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
-  std::string quoted = "'";
-  for (const char character : text) {
-    if (character == '\'') {
-      quoted += "'\\''";
-    } else {
-      quoted += character;
-    }
-  }
-  return quoted + "'";
-}
-
 namespace {
 
 constexpr std::array<std::pair<std::string_view, double>, 8> units = {

@@ -33,17 +33,6 @@ std::string with_error(double value, double error);
 /// Returns text such as "1 disk", "2 disks"
 std::string counted(std::uint64_t number, std::string_view thing);
 
-/// Returns text such as "fast"; "naive, dt = 0.001" where there is a time step; "soft, dt = 0.001, stiffness = 5000" where one
-/// was given.
-std::string method_words(const std::string& name, std::optional<double> time_step, std::optional<double> stiffness);
-
-/// Returns the options of the program that choose this engine or method again, to the last bit: "--engine fast",
-/// "--method soft --dt 0.001 --stiffness 5000".
-std::string method_options(const std::string& name, std::optional<double> time_step, std::optional<double> stiffness);
-
-/// Returns the text as one word of a POSIX shell, in quotes only where it needs them.
-std::string shell_quoted(const std::string& text);
-
 /// Returns the seconds of "90", "90s", "10min", "1h30min", "2d", or "HH:MM:SS" as batch systems have it. Throws
 /// std::invalid_argument where the text is no positive length of time; what() says what to give.
 [[nodiscard]] double seconds_in(const std::string& text);

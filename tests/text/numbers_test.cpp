@@ -1,6 +1,7 @@
 // Words and options for engines and methods, and lengths of time.
 
 #include "text/numbers.hpp"
+#include "text/methods.hpp"
 
 #include <gtest/gtest.h>
 

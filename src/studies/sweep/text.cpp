@@ -3,6 +3,7 @@
 #include "core/seconds.hpp"
 #include "studies/sweep/results.hpp"
 #include "text/numbers.hpp"
+#include "text/shell.hpp"
 #include "text/table.hpp"
 
 #include <fmt/format.h>
