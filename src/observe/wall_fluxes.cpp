@@ -1,12 +1,17 @@
 // Momentum and energy that go through each wall, per time and length of wall, outward positive: pressure, shear stress on thermal
 // walls, and heat and work. The rim of a circular box is one wall, smooth and elastic: it has the pressure alone.
 // Averages over time.
+//
+// Where one wall alone exchanges energy, or momentum along it, what it has taken is what the disks have lost: it does not grow
+// with time, and its error is that of two states.
 
-#include "observe/blocking.hpp"
+#include "observe/energy.hpp"
 #include "observe/geometry.hpp"
+#include "observe/mechanics.hpp"
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"
 #include "observe/wall_momentum.hpp"
+#include "scene/effect_traits.hpp"
 #include "scene/walls.hpp"
 
 #include <algorithm>
@@ -19,19 +24,41 @@ namespace {
 
 class WallFluxes final : public SavedObservable<WallFluxes> {
  public:
-  WallFluxes(const ObservableRequest& request, const ObservedRun& run) : SavedObservable(request, run) {}
+  WallFluxes(const ObservableRequest& request, const ObservedRun& run) : SavedObservable(request, run) {
+    if (!run.scene.changes.empty()) return;
+    for (std::size_t side = 0; side < 4; ++side) {
+      const Effects& with = run.scene.effects;
+      Effects without = with;
+      without.walls[side] = {};
+      const int along = side < 2 ? 1 : 0;
+      is_alone_with_energy_[side] = !detail::conserve_energy(with) && detail::conserve_energy(without);
+      is_alone_with_momentum_[side] =
+          !conserves_momentum(run.scene.box, with, along) && conserves_momentum(run.scene.box, without, along);
+    }
+  }
 
   void sample(const State& state, const Totals& totals) override {
     const Eigen::Vector2d lengths = box_of(run_.scene.box, state).lengths();
     const double dt = state.time - time_;
     const std::array<double, 4> bounded = bounded_parts(state);
+    const double energy = total_energy(run_.scene.box, run_.scene.effects, run_.disks, state);
+    const Eigen::Vector2d momentum = total_momentum(run_.disks, state);
     for (std::size_t side = 0; side < 4; ++side) {
       const int along = side < 2 ? 1 : 0;
       const double length = 0.5 * (lengths[along] + lengths_[along]);
       if (dt > 0.0) momentum_[side].add(totals.wall_impulse[side] - impulse_[side], length * dt, bounded_[side], bounded[side]);
-      if (dt > 0.0) shear_[side].add(totals.wall_shear[side] - shears_[side], length * dt);
-      if (dt > 0.0) energy_[side].add(totals.wall_energy[side] - energies_[side], length * dt);
+      const auto part = [](bool is_alone, double whole) { return is_alone ? whole : 0.0; };
+      const auto of_momentum = [&](const Eigen::Vector2d& p) { return part(is_alone_with_momentum_[side], p[along]); };
+      const auto of_energy = [&](double all) { return part(is_alone_with_energy_[side], all); };
+      if (dt > 0.0)
+        shear_[side].add(totals.wall_shear[side] - shears_[side], length * dt, of_momentum(momentum_of_disks_),
+                         of_momentum(momentum));
+      if (dt > 0.0)
+        energy_[side].add(totals.wall_energy[side] - energies_[side], length * dt, of_energy(energy_of_disks_),
+                          of_energy(energy));
     }
+    energy_of_disks_ = energy;
+    momentum_of_disks_ = momentum;
     time_ = state.time;
     lengths_ = lengths;
     bounded_ = bounded;
@@ -55,6 +82,7 @@ class WallFluxes final : public SavedObservable<WallFluxes> {
   template <class Archive>
   void serialize(Archive& archive) {
     archive(time_, lengths_, impulse_, shears_, energies_, bounded_, momentum_, shear_, energy_);
+    archive(energy_of_disks_, momentum_of_disks_);
   }
 
  private:
@@ -75,8 +103,10 @@ class WallFluxes final : public SavedObservable<WallFluxes> {
   double time_ = 0.0;
   Eigen::Vector2d lengths_ = Eigen::Vector2d::Zero();
   std::array<double, 4> impulse_{}, shears_{}, energies_{}, bounded_{};
-  std::array<RateWithBoundedPart, 4> momentum_;
-  std::array<Blocking, 4> shear_, energy_;
+  double energy_of_disks_ = 0.0;
+  Eigen::Vector2d momentum_of_disks_ = Eigen::Vector2d::Zero();
+  std::array<bool, 4> is_alone_with_energy_{}, is_alone_with_momentum_{};
+  std::array<RateWithBoundedPart, 4> momentum_, shear_, energy_;
 };
 
 /// The momentum through the rim of a circular box. Its bounded part is that of wall_momentum.hpp on a circle: the action G = sum

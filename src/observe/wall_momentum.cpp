@@ -17,9 +17,13 @@ void RateWithBoundedPart::add(double x, double weight, double before, double aft
 }
 
 void RateWithBoundedPart::fill(Scalar& scalar, double step, double offset) const {
-  const std::optional<Blocking::Estimate> found = all_.estimate();
-  if (!found) return;
-  rest_.fill(scalar, step);
+  const std::optional<Blocking::Estimate> found = all_.estimate(), of_rest = rest_.estimate();
+  if (!found || !of_rest) return;
+  constexpr double rounding = 1e-9;
+  if (found->error && of_rest->error && *of_rest->error <= rounding * *found->error)
+    scalar.error = 0.0;  // nothing but the quantity changes, and the rest is what rounding leaves
+  else
+    rest_.fill(scalar, step);
   scalar.value = offset + found->mean;
   if (!scalar.error) return;
   const double variance = squares_ / (static_cast<double>(count_) - 1.0);

@@ -36,6 +36,7 @@ TEST_F(ValidateCommand, ListNamesTheTrialsAndWritesNothing) {
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("Maxwell and Boltzmann\n  relaxation-periodic-one-speed\n"),
                                  HasSubstr("transition-0.708 (--full)")));
+  EXPECT_EQ(validate({"--list", "--only", "transition-0.708"}).out.find("relaxation"), std::string::npos);
   EXPECT_TRUE(fs::is_empty(directory_.path()));
 }
 

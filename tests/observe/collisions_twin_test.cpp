@@ -417,5 +417,29 @@ TEST(ObservedPressure, ZOfACrystalSaysThatItsErrorIsTooLarge) {
   }
 }
 
+/// What the only wall that exchanges energy has taken is what the disks have lost, and errs as much as two states of them.
+TEST(ObservedWalls, OneThatAloneIsThermalTakesADifferenceOfTwoStates) {
+  const Observed o = observe(
+      parse_scene("[box]\nx = [0.0, 8.0]\ny = [0.0, 9.0]\nboundary = { x = \"periodic\", y = \"walls\" }\n[[disks]]\ncount = 36\n"
+                  "radius = 0.5\nmass = 1.5\npositions = \"random\"\nvelocities = { temperature = 1.0 }\n[collision]\n"
+                  "rule = \"specular\"\n[walls]\nbottom = { temperature = 1.0 }\n[run]\ntime = 100.0\n[observe]\n"
+                  "wall_fluxes = { every = 0.5 }\n"),
+      0.5);
+  const auto expect = [&](const char* name, auto&& quantity) {
+    const State &first = o.record.states.front(), &last = o.record.states.back();
+    const Scalar& found = o.scalar("wall_fluxes", name);
+    EXPECT_NEAR(found.value.value(), (quantity(first) - quantity(last)) / 800.0, 1e-12) << name;
+    double mean = 0.0, squares = 0.0;
+    const double count = static_cast<double>(o.record.states.size()) - 1.0;  // without that of the start
+    for (const State& state : o.record.states) mean += &state == &first ? 0.0 : quantity(state) / count;
+    for (const State& state : o.record.states) squares += &state == &first ? 0.0 : std::pow(quantity(state) - mean, 2);
+    EXPECT_NEAR(found.error.value(), std::sqrt(2.0 * squares / (count - 1.0)) / 800.0, 1e-12) << name;
+    EXPECT_EQ(found.note, "") << name;
+    EXPECT_FALSE(found.halves) << name;
+  };
+  expect("energy_bottom", [](const State& state) { return 0.75 * state.velocities.squaredNorm(); });
+  expect("shear_bottom", [](const State& state) { return 1.5 * state.velocities.row(0).sum(); });
+}
+
 }  // namespace
 }  // namespace carom::test

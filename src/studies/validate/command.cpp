@@ -32,9 +32,11 @@ Validation earlier_trials(const RunDirectory& directory, const std::string& key,
   return as_usage_error([&] { return load_trials(directory.final_name("trials.jsonl"), key); });
 }
 
-std::string list() {
+/// Names the trials that `options` choose, those of --full too.
+std::string list(ValidateOptions options) {
+  options.full = true;
   std::string text, group;
-  for (const validation::Trial& trial : validation::all_trials()) {
+  for (const validation::Trial& trial : chosen_trials(options)) {
     if (trial.group != group) text += fmt::format("{}{}\n", group.empty() ? "" : "\n", trial.group);
     group = trial.group;
     text += fmt::format("  {}{}\n", trial.name, trial.only_full ? " (--full)" : "");
@@ -79,7 +81,7 @@ ValidateOptions validate_options(const ValidateCommandOptions& options) {
 ExitCode validate(const ValidateCommandOptions& options, const Invocation& invocation) {
   const ValidateOptions chosen = validate_options(options);
   if (options.list) {
-    fmt::print("{}", list());
+    fmt::print("{}", list(chosen));
     return exit_done;
   }
   const ProgressMode mode = progress_mode(options.progress, options.quiet);
