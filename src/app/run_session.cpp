@@ -112,6 +112,8 @@ class Session {
     }
     if (report.stopped == StopReason::interrupted) say_how_to_go_on();
     const ExitCode code = exit_code_of(report);
+    // Interrupted means saved: who submits the run again for this code would find nothing to go on from.
+    if (code == exit_interrupted && report.stopped == StopReason::interrupted && !runner_.saved_now()) return exit_failed;
     return code == exit_done && (report_failed || horizon_failed_) ? exit_failed : code;
   }
 

@@ -185,7 +185,7 @@ std::string why_stopped(const RunReport& report, const Scene* scene) {
     case StopReason::condition:
       return "the condition of the program was met";
     case StopReason::interrupted:
-      return report.measured ? "interrupted; everything up to here is saved" : "interrupted during equilibration";
+      return report.measured ? "interrupted; the files have everything up to here" : "interrupted during equilibration";
     case StopReason::jammed:
       if (scene != nullptr && has_filled_the_box(report, *scene))
         return "jammed: the largest disk has grown until it fills the box; end before that, or take a larger box";

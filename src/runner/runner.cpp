@@ -138,10 +138,16 @@ void Runner::save(const SavingMoment& moment, const RunnerHooks& hooks) {
   saved_collisions_ = moment.progress.totals.pair;
   try {
     write_checkpoint(*directory_, facts, simulation_.state(), parts);
-    saved_ = true;
+    saved_ = saved_last_ = true;
     told_unsaved_ = false;
   } catch (const OutputError& error) {  // the run may still come to its end
-    if (hooks.warn && !std::exchange(told_unsaved_, true)) hooks.warn(fmt::format("{}; the run goes on unsaved", error.what()));
+    saved_last_ = false;
+    const char* const what_follows = !moment.ended ? "the run goes on unsaved"
+                                     : !stopped_   ? "the run is complete, and cannot be extended from here"
+                                     : saved()     ? "the run can go on from where it was saved before, and not from here"
+                                                   : "the run cannot go on later";
+    if (hooks.warn && (moment.ended || !std::exchange(told_unsaved_, true)))
+      hooks.warn(fmt::format("{}; {}", error.what(), what_follows));
   }
 }
 

@@ -71,8 +71,8 @@ class Runner {
 
   /// Whether there is a checkpoint of this run.
   [[nodiscard]] bool saved() const { return saved_ || from_ != nullptr; }
-  /// Whether run() has saved it.
-  [[nodiscard]] bool saved_now() const { return saved_; }
+  /// Returns whether run() has saved it at its end.
+  [[nodiscard]] bool saved_now() const { return saved_last_; }
   [[nodiscard]] const Provenance& provenance() const { return provenance_; }
 
  private:
@@ -104,6 +104,7 @@ class Runner {
   std::uint64_t saved_collisions_;
   bool stopped_ = false;
   bool saved_ = false;
+  bool saved_last_ = false;    ///< whether the last attempt to save it went well
   bool told_unsaved_ = false;  ///< since the last checkpoint that could be written
   bool extended_ = false;      ///< the run had come to its end before
 };

@@ -170,5 +170,19 @@ TEST_F(Resume, DurationsAreReadAsPeopleTypeThem) {
   EXPECT_FALSE(is_there("never"));
 }
 
+TEST_F(Resume, AStoppedRunThatCannotBeSavedSaysSoAndIsNotCalledInterrupted) {
+  // No file beyond eight kilobytes: enough for the summary, and not for a checkpoint.
+  write_text(file("plain.toml"), without_time(fifty_disks));
+  const Outcome outcome =
+      run_program(directory_.path(),
+                  {"sh", "-c", "ulimit -f 16; exec \"$0\" run plain.toml --time 1e6 --walltime 0.2s --no-trajectory -o full -q",
+                   CAROM_PROGRAM});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("full/checkpoint.h5.partial: cannot write: File too large; "));
+  EXPECT_THAT(outcome.err, HasSubstr("; the run cannot go on later\n"));
+  EXPECT_TRUE(std::filesystem::exists(file("full/summary.json")));
+  EXPECT_FALSE(std::filesystem::exists(file("full/checkpoint.h5.partial")));
+}
+
 }  // namespace
 }  // namespace carom::test
