@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <span>
 #include <string>
+#include <vector>
 
 namespace carom::test {
 
@@ -57,6 +59,49 @@ inline void expect_same(const Simulation& alone, const Simulation& shared, const
   EXPECT_EQ(b.numerics.deepest_overlap, a.numerics.deepest_overlap) << where;
   EXPECT_EQ(shared.counts().pair, a.pair) << where;
   EXPECT_EQ(shared.time(), alone.time()) << where;
+}
+
+inline void expect_same_runs(const Scene& scene, const Threads& threads, double time, int stops) {
+  Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+  shared.set_threads(threads);
+  for (int k = 1; k <= stops; ++k) {
+    alone.run_until(time * k / stops);
+    EXPECT_EQ(shared.run_until(time * k / stops), StopReason::time);
+    expect_same(alone, shared, "stop " + std::to_string(k));
+  }
+  EXPECT_TRUE(shared.check_invariants().empty());
+  EXPECT_GT(shared.thread_counts().windows, 10U);
+  EXPECT_LT(shared.thread_counts().windows_redone, shared.thread_counts().windows / 4);
+}
+
+/// Compares a scene that is shared out with one core at these times. Returns what sharing it out took.
+inline ThreadCounts expect_same_at(const std::vector<double>& times, const Scene& scene, const Threads& threads) {
+  Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+  shared.set_threads(threads);
+  for (const double time : times) {
+    alone.run_until(time);
+    shared.run_until(time);
+    expect_same(alone, shared, "time " + std::to_string(time));
+  }
+  return shared.thread_counts();
+}
+
+/// The log of a run, with time, disk, partner and a number of velocities of each event.
+inline std::vector<double> told_events(const Scene& scene, const Threads& threads) {
+  std::vector<double> told;
+  Simulation simulation = make_simulation(scene);
+  simulation.set_threads(threads);
+  RunHooks hooks;
+  hooks.events = [&](std::span<const Event> events) {
+    for (const Event& event : events) {
+      told.push_back(event.time);
+      told.push_back(event.disk);
+      told.push_back(event.partner);
+      told.push_back(event.velocity[0] - event.partner_velocity[1]);
+    }
+  };
+  run_schedule(simulation, hooks);
+  return told;
 }
 
 }  // namespace carom::test
