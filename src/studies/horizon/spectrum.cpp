@@ -113,8 +113,6 @@ LyapunovSpectrum spectrum_of(const std::vector<Stretch>& stretches, Eigen::Index
   LyapunovSpectrum spectrum;
   for (const Stretch& one : stretches) grown += one.logs, time += one.time, spectrum.collisions += one.pairs;
   const Eigen::VectorXd rates = grown / time;
-  for (Eigen::Index c = 0; c < 2 * disks; ++c)
-    spectrum.pairing = std::max(spectrum.pairing, std::abs(rates[c] + rates[4 * disks - 1 - c]));
   // Those that are nearly equal may come in another order.
   std::vector<Eigen::Index> order(static_cast<std::size_t>(4 * disks));
   std::iota(order.begin(), order.end(), 0);
@@ -123,6 +121,8 @@ LyapunovSpectrum spectrum_of(const std::vector<Stretch>& stretches, Eigen::Index
     spectrum.exponents.push_back(rates[c]);
     spectrum.errors.push_back(error_of_rate(stretches, time, rates[c], [&](const Stretch& one) { return one.logs[c]; }));
   }
+  for (auto first = spectrum.exponents.begin(), last = spectrum.exponents.end(); first < last; ++first)
+    spectrum.pairing = std::max(spectrum.pairing, std::abs(*first + *--last));
   const auto positive = [&](const Eigen::VectorXd& values) {
     double sum = 0.0;
     for (Eigen::Index c = 0; c < values.size(); ++c)
@@ -224,7 +224,11 @@ std::string spectrum_text(const LyapunovSpectrum& spectrum, const Scene& scene) 
   if (is_paired)
     return text +
            fmt::format("Exponents 1 and {}, 2 and {}, ... have the sum 0 to {:.1g}.\n", 2 * half, 2 * half - 1, spectrum.pairing);
-  return text + "Exponents are not paired, because the dynamics is not that of a Hamiltonian.\n";
+  return text +
+         fmt::format(
+             "Exponents 1 and {}, 2 and {}, ... have sums of up to {:.2g}: they would be 0 at any time if the dynamics were "
+             "that of a Hamiltonian.\n",
+             2 * half, 2 * half - 1, spectrum.pairing);
 }
 
 }  // namespace carom
