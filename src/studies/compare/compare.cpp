@@ -6,6 +6,7 @@
 #include "core/seconds.hpp"
 #include "neighbours/disks_at_rest.hpp"
 #include "observe/energy.hpp"
+#include "observe/equilibrium.hpp"
 #include "observe/mechanics.hpp"
 #include "observe/pressure.hpp"
 #include "scene/drawn.hpp"
@@ -330,7 +331,8 @@ class Study {
     run.pair = totals.pair;
     const double counted = counted_time(method, run.time);
     if (counted > 0.0) {
-      run.Z = compressibility(totals.virial / counted, count, kinetic_temperature(scene_.box, disks, start));
+      if (why_no_Z(scene_).empty())
+        run.Z = compressibility(totals.virial / counted, count, kinetic_temperature(scene_.box, disks, start));
       run.collision_rate = 2.0 * static_cast<double>(totals.pair) / (count * counted);
     }
     run.mean_free_path = totals.pair == 0 ? 0.0 : speeds / static_cast<double>(samples) / run.collision_rate;

@@ -7,6 +7,7 @@
 #include "studies/horizon/report.hpp"
 #include "studies/step_audit.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -49,7 +50,7 @@ struct MethodRun {
   double seconds = 0.0;                  ///< processor time until `time`
   double time = 0.0;                     ///< reached; plan.until(), or less where that would have taken too long
   std::uint64_t pair = 0;                ///< reversals
-  double Z = 0.0;                        ///< Z from r . dp of each reversal
+  double Z = NAN;                        ///< Z from r . dp of each reversal; none where the scene has no Z
   double collision_rate = 0.0;           ///< reversals of one disk per time
   double mean_free_path = 0.0;           ///< mean speed over collision_rate; length
   double energy_drift = 0.0;             ///< of the final energy from that of the 113-bit trajectory, relative

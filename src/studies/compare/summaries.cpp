@@ -29,12 +29,12 @@ MethodSummary summary_of(const Comparison& comparison, const Method& method) {
     if (const std::optional<double> horizon = horizon_of(comparison.plan, run)) horizons.push_back(*horizon);
     per_time.push_back(run.seconds / run.time);
     if (run.error.size() >= comparison.plan.samples) {
-      Z.push_back(run.Z);
+      if (std::isfinite(run.Z)) Z.push_back(run.Z);
       rate.push_back(run.collision_rate);
       if (run.pair > 0) path.push_back(run.mean_free_path);
       const MethodRun* exact = exact_twin(comparison, run);
       if (exact != nullptr && exact->pair > 0) {
-        Z_bias.push_back(run.Z / exact->Z - 1.0);
+        if (std::isfinite(run.Z) && std::isfinite(exact->Z)) Z_bias.push_back(run.Z / exact->Z - 1.0);
         rate_bias.push_back(run.collision_rate / exact->collision_rate - 1.0);
         if (run.pair > 0) path_bias.push_back(run.mean_free_path / exact->mean_free_path - 1.0);
       }

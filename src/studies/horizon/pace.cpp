@@ -18,7 +18,8 @@ Pace measure_pace(const Scene& scene, const State& start) {
   if (!(fastest > 0.0)) return {};
   const auto disks = static_cast<double>(start.velocities.cols());
   const double passage = std::sqrt(scene.box.area() / disks) / fastest;
-  const double enough = std::max(4000.0, 4.0 * disks);
+  // A gas that loses energy slows down: its pace is that of the start.
+  const double enough = std::max(scene.effects.dissipate() ? 200.0 : 4000.0, 4.0 * disks);
   Simulation simulation = make_simulation(scene, start);
   const auto events = [&] { return static_cast<double>(detail::all_events(simulation.totals())); };
   // Disks that come to rest on each other meet ever more often: some more events than enough are the end.

@@ -13,9 +13,9 @@ struct Pace {
   bool stuck = false;            ///< jammed at the time reached: collisions without end at one instant
 };
 
-/// Looks at some thousand events or four per disk, whichever is more, but no longer than the fastest disk needs for about 4096
-/// times the mean spacing of disks times the root of their number: a scene where nothing meets ends too. Throws as
-/// make_simulation.
+/// Looks at some thousand events (two hundred where collisions lose energy, for the gas slows down) or four per disk, whichever
+/// is more, but no longer than the fastest disk needs for about 4096 times the mean spacing of disks times the root of their
+/// number: a scene where nothing meets ends too. Throws as make_simulation.
 Pace measure_pace(const Scene& scene, const State& start);
 
 /// Collisions of pairs that no step of a study comes near, which holds a few per disk or 20,000 events: time has all but stopped.
