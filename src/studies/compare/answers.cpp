@@ -34,7 +34,8 @@ std::optional<Estimate> order_of(const std::vector<MethodSummary>& summaries, co
   return Estimate{order, std::sqrt(rest / (n - 2.0) / sxx)};
 }
 
-/// Returns where a method's cost passes that of exact events, by a straight line between the logarithms of neighbouring points.
+/// Returns where a method's cost passes that of exact events, by a straight line between the logarithms of neighbouring points. A
+/// method that finds contacts is wrong with one step and right to rounding with the next: of it, the step that costs less.
 std::optional<Crossover> crossover_of(const std::vector<MethodSummary>& summaries, const std::string& method,
                                       double exact_seconds) {
   std::optional<Crossover> found;
@@ -43,6 +44,10 @@ std::optional<Crossover> crossover_of(const std::vector<MethodSummary>& summarie
     const MethodSummary &cheap = *steps[k], &dear = *steps[k + 1];
     if (!(cheap.seconds_early < exact_seconds && dear.seconds_early >= exact_seconds)) continue;
     if (!(dear.error.median > 0.0) || !std::isfinite(cheap.error.median)) continue;
+    if (finds_contacts(method)) {
+      found = Crossover{method, cheap.error.median, cheap.method.dt};
+      continue;
+    }
     const double at = std::log(exact_seconds / cheap.seconds_early) / std::log(dear.seconds_early / cheap.seconds_early);
     found = Crossover{method, between_logarithms(cheap.error.median, dear.error.median, at),
                       between_logarithms(cheap.method.dt, dear.method.dt, at)};
