@@ -60,8 +60,10 @@ struct AnyWorld {
       ++totals.obstacle;
       const auto bounce =
           obstacles.bounce(first_obstacle - what, contact.r, v, falling.g, contact.mass, contact.radius, expansion);
-      if (first_obstacle - what == rim_) totals.circle_impulse.add(slowed * outward(bounce.impulse, contact.r));
-      for (int k = 0; k < 2; ++k) totals.obstacle_impulse[static_cast<std::size_t>(k)].add(slowed * bounce.impulse[k]);
+      if (first_obstacle - what == rim_)
+        totals.circle_impulse.add(slowed * outward(bounce.impulse, contact.r));
+      else
+        for (int k = 0; k < 2; ++k) totals.obstacle_impulse[static_cast<std::size_t>(k)].add(slowed * bounce.impulse[k]);
       if (bounce.energy != 0.0) totals.growth_energy.add(bounce.energy);
       return infinity<double>;
     }

@@ -121,9 +121,10 @@ struct TextbookWorld {
       if (first_obstacle - what == rim) {
         const Vec2<Real> outward = (a.r - circle->centre.template cast<Real>()).normalized();
         totals.circle_impulse.add(static_cast<double>(slowed * bounce.impulse.dot(outward)));
+      } else {
+        for (int k = 0; k < 2; ++k)
+          totals.obstacle_impulse[static_cast<std::size_t>(k)].add(static_cast<double>(slowed * bounce.impulse[k]));
       }
-      for (int k = 0; k < 2; ++k)
-        totals.obstacle_impulse[static_cast<std::size_t>(k)].add(static_cast<double>(slowed * bounce.impulse[k]));
       totals.growth_energy.add(static_cast<double>(bounce.energy));
       return infinity<Real>;
     }

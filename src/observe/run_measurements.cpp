@@ -11,7 +11,9 @@
 
 #include <algorithm>
 #include <numbers>
+#include <string>
 #include <string_view>
+#include <variant>
 
 namespace carom {
 
@@ -98,6 +100,18 @@ void RunMeasurements::measure_Z(const RunResult& result, double temperature) {
   }
 }
 
+namespace {
+
+/// Returns whether a change of the scene sets a key of this table.
+bool some_change_sets(const Scene& scene, std::string_view table) {
+  return std::ranges::any_of(scene.changes, [&](const Change& change) {
+    const auto* set = std::get_if<SetKeys>(&change.what);
+    return set != nullptr && std::ranges::any_of(set->overrides, [&](const std::string& one) { return one.starts_with(table); });
+  });
+}
+
+}  // namespace
+
 void RunMeasurements::add_changes(const Scene& whole) {
   EffectsReport& report = report_.of_effects;
   const Scene& now = simulation_.scene();
@@ -106,8 +120,10 @@ void RunMeasurements::add_changes(const Scene& whole) {
   const State state = simulation_.state();
   if (report.energies_end) report.energies_end = energies_of(now.box, now.effects, simulation_.disks(), state);
   if (report.packing_fraction_end) report.packing_fraction_end = packing_fraction(now.box, simulation_.disks(), state);
-  if (exchanges_uncounted_energy(whole.effects) || whole.effects.drag_rate() > 0.0)
-    report.energy_supplied.reset();  // what drag takes depends on when it acted
+  // What drag takes depends on when it acted, and a wall's energy counts as supplied unless it is a piston's.
+  const bool is_untold = whole.effects.drag_rate() > 0.0 || (has_pistons(whole.effects) && some_change_sets(whole, "walls"));
+  if (exchanges_uncounted_energy(whole.effects) || is_untold)
+    report.energy_supplied.reset();
   else
     report.energy_supplied = report.energy_supplied.value_or(0.0) + energy_of_changes_;
 }
@@ -141,6 +157,10 @@ RunReport RunMeasurements::report(const RunResult& result, double wall_seconds) 
   if (!whole.changes.empty()) add_changes(whole);
   if (!result.measured) report_.of_effects.energy_supplied.reset();  // totals began before the initial energy did
   effect_means_.add_to(report_.of_effects, whole, disks, state);
+  if (report_.of_effects.shear && some_change_sets(whole, "shear")) {
+    report_.of_effects.shear->strain.reset();
+    report_.of_effects.shear->viscosity.reset();
+  }
   measure_Z(result, temperature);
   return report_;
 }

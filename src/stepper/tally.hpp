@@ -47,8 +47,10 @@ class Tally {
   }
   /// Adds to what fixed shapes have taken.
   void add_to_shapes(const Vec2<double>& impulse, double outward) {
-    for (int k = 0; k < 2; ++k) totals.obstacle_impulse[static_cast<std::size_t>(k)].add(impulse[k]);
-    if (outward != 0) totals.circle_impulse.add(outward);
+    if (outward != 0)
+      totals.circle_impulse.add(outward);
+    else
+      for (int k = 0; k < 2; ++k) totals.obstacle_impulse[static_cast<std::size_t>(k)].add(impulse[k]);
   }
 
   RunningTotals totals;

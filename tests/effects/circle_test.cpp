@@ -59,6 +59,8 @@ TEST(Circle, ADiskKeepsItsAngularMomentumAndItsChord) {
     simulation.run_until(1e9, {.events = 1'000'000});
     EXPECT_EQ(simulation.counts().obstacle, 1'000'000U);
     EXPECT_EQ(simulation.counts().wall, 0U) << "the square round the circle is not there";
+    EXPECT_GT(simulation.totals().circle_impulse, 0.0) << engine;
+    EXPECT_EQ(simulation.totals().obstacle_impulse.norm(), 0.0) << engine << ": there are no obstacles";
     EXPECT_NEAR(momentum_about_middle(simulation) / before, 1.0, 1e-12) << engine;
     EXPECT_NEAR(simulation.time() / (1'000'000 * chord), 1.0, 1e-6) << engine;
     simulation.record_events(true);

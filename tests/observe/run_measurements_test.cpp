@@ -181,6 +181,21 @@ TEST(RunMeasurements, BesideAHeatBathTheErrorOfZIsThatOfARatio) {
   EXPECT_NEAR(summary / observable, 1.0, 4.0 * 0.11);
 }
 
+TEST(RunMeasurements, WhatHoldsOfOneRateOfShearIsNotSaidOfTwo) {
+  Scene scene = gas_scene(16, 0.3, Boundary::periodic);
+  scene.effects.shear = Shear{.rate = 0.1};
+  scene.effects.thermostat = Thermostat{.temperature = 1.0, .rate = 1.0};
+  scene.run.time = 2.0;
+  scene.run.sample_every = 0.5;
+  const RunReport one = measure(scene).report;
+  EXPECT_NEAR(one.of_effects.shear->strain.value(), 0.2, 1e-15);
+  EXPECT_TRUE(one.of_effects.shear->viscosity);
+  scene.changes = {{1.0, SetKeys{{"shear.rate=-0.1"}}}};
+  const RunReport two = measure(scene).report;
+  EXPECT_FALSE(two.of_effects.shear->strain);
+  EXPECT_FALSE(two.of_effects.shear->viscosity);
+}
+
 TEST(RunMeasurements, AChangeThatCannotBeMadeGivesNoEnergy) {
   Scene scene = gas_scene(16, 0.3, Boundary::walls);
   scene.run.time = 2.0;
