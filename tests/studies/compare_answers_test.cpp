@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -246,6 +247,25 @@ TEST_F(KnownAnswers, TheCrossoverIsThatOfTheMethodThatIsCheaperForTheSmallestErr
   ASSERT_TRUE(answers.crossover);
   EXPECT_EQ(answers.crossover->method, "backtrack");
   EXPECT_THAT(answers.sentences, Contains(HasSubstr("A fixed step is the better choice for errors above")));
+}
+
+/// Of a method that is wrong with one step and right to rounding with the next there is no error in between.
+TEST_F(KnownAnswers, NothingIsBetweenAStepThatIsWrongAndOneThatIsRight) {
+  Comparison comparison = laws_.comparison({"backtrack"});
+  for (MethodRun& run : comparison.runs)
+    if (run.method.name == "backtrack") run.error[0] = run.seconds_early < laws_.exact_seconds ? 0.6 : 1e-14;
+  const Answers answers = answers_of(comparison);
+  ASSERT_TRUE(answers.crossover);
+  EXPECT_EQ(answers.crossover->error, 0.6);
+}
+
+/// The bias of backtrack is that of its mistakes: no line through its steps makes a price of noise.
+TEST_F(KnownAnswers, ThePressureOfMethodsThatFindContactsIsPricedByStepsThatWereRun) {
+  const Comparison comparison = laws_.comparison({"backtrack"});
+  const Price price = price_of(answers_of(comparison), "backtrack", "Z 1 %");
+  ASSERT_TRUE(price.dt) << price.remark;
+  EXPECT_TRUE(std::any_of(comparison.runs.begin(), comparison.runs.end(),
+                          [&](const MethodRun& run) { return run.method.dt == *price.dt; }));
 }
 
 TEST_F(KnownAnswers, MethodsThatNeverCrossAreSaidNotTo) {

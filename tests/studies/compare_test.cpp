@@ -6,6 +6,7 @@
 #include "studies/compare/answers.hpp"
 #include "studies/compare/files.hpp"
 #include "studies/compare/reference.hpp"
+#include "studies/horizon/pace.hpp"
 #include "support/comparisons.hpp"
 
 #include <gmock/gmock.h>
@@ -238,6 +239,22 @@ TEST(Compare, AnEngineByNameIsTheOneThatIsCompared) {
             (std::vector<std::string>{"textbook-float", "textbook", "textbook-long-double"}));
   EXPECT_EQ(compared_engines(dozen_scene(), "fast"),
             (std::vector<std::string>{"textbook-float", "textbook", "fast", "textbook-long-double"}));
+}
+
+TEST(Compare, OfAGasThatCoolsTheEngineThatRunsItIsComparedAndThereIsNoZ) {
+  Scene scene = dozen_scene();
+  scene.effects.collision.restitution = 0.8;
+  const Comparison comparison = compare(scene, dozen_options({0.01}, 1, "auto"), {});
+  EXPECT_EQ(comparison.plan.horizon.engine, "general");
+  for (const MethodSummary& summary : summaries_of(comparison)) {
+    EXPECT_FALSE(summary.Z) << summary.method.name;
+    EXPECT_FALSE(summary.Z_bias) << summary.method.name;
+  }
+  // The pace is that of the start: the gas has not yet lost half of its speed.
+  const Pace pace = measure_pace(scene, make_simulation(scene).state());
+  scene.effects.collision.restitution.reset();
+  const Pace elastic = measure_pace(scene, make_simulation(scene).state());
+  EXPECT_GT(pace.collision_rate, 0.5 * elastic.collision_rate);
 }
 
 TEST(Compare, ScenesWithoutCollisionsAreRefusedInASentence) {

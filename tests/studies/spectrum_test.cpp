@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
@@ -53,6 +54,18 @@ TEST(LyapunovSpectrumOf, DifferentMassesIsPairedToo) {
   const LyapunovSpectrum found = spectrum_of(mixture_scene(6, 0.3, Boundary::periodic), 3000);
   EXPECT_EQ(found.exponents.size(), 24U);
   EXPECT_LT(found.pairing, 1e-6 * found.collision_rate);
+}
+
+/// Reversible in time, and no Hamiltonian: pairs have the sum 0 in the limit alone.
+TEST(LyapunovSpectrumOf, ReversalIsPairedInTheLimit) {
+  Scene scene = gas_scene(4, 0.4, Boundary::periodic);
+  scene.effects.collision.rule = CollisionRule::reversal;
+  const LyapunovSpectrum found = spectrum_of(scene, 40'000);
+  double largest = 0.0;
+  for (std::size_t k = 0; k < 16; ++k) largest = std::max(largest, std::abs(found.exponents[k] + found.exponents[15 - k]));
+  EXPECT_EQ(found.pairing, largest);
+  EXPECT_GT(found.pairing, 1e-9 * found.collision_rate);
+  EXPECT_LT(found.pairing, 5.0 * std::hypot(found.errors[0].value(), found.errors[15].value()));
 }
 
 TEST(LyapunovSpectrumOf, AGasBeginsWithItsLargestExponent) {

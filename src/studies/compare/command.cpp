@@ -166,9 +166,10 @@ CompareOptions compare_options(const CompareCommandOptions& options) {
   for (const double dt : options.dts)
     if (!(dt > 0.0 && std::isfinite(dt))) throw UsageError(fmt::format("--dt {:g}: a time step must be positive and finite", dt));
   const std::string& engine = checked_engine(options.scene);
-  if (engine != "auto" && engine != "fast" && engine != "textbook")
+  if (engine != "auto" && engine != "fast" && engine != "general" && engine != "textbook")
     throw UsageError(fmt::format(
-        "--engine {}: every precision is compared anyway; choose auto, fast or textbook for the scene's own run", engine));
+        "--engine {}: every precision is compared anyway; choose auto, fast, general or textbook for the scene's own run",
+        engine));
   if (options.stiffness && !(*options.stiffness > 0.0 && std::isfinite(*options.stiffness)))
     throw UsageError(fmt::format("--stiffness {:g}: it must be positive and finite", *options.stiffness));
   return {.dts = options.dts,

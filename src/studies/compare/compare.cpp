@@ -31,6 +31,9 @@ namespace carom {
 
 namespace {
 
+/// Returns whether this is an engine that is chosen to run scenes, and not one to hold it against.
+bool runs_scenes(const std::string& engine) { return engine == "fast" || engine == "general"; }
+
 /// Errors are compared until a quarter beyond the horizon, so that its coming is seen, and costs at a sixteenth of it, where
 /// errors have grown by two e-foldings or so and are still those of the method.
 constexpr double beyond_horizon = 1.25;
@@ -90,8 +93,9 @@ class Study {
     if (!(pace.collision_rate > 0.0))
       throw std::invalid_argument("no two disks of this scene collide; there is nothing to compare");
     HorizonOptions options;
-    const std::vector<std::string> engines = compared_engines(scene_, options_.engine);
-    options.engine = std::find(engines.begin(), engines.end(), "fast") == engines.end() ? "textbook" : "fast";
+    options.engine = "textbook";
+    for (const std::string& engine : compared_engines(scene_, options_.engine))
+      if (runs_scenes(engine)) options.engine = engine;
     options.lyapunov_collisions = options_.lyapunov_collisions;
     options.proceed = [&](const HorizonProgress& progress) {
       return going_on("measuring how far the trajectory can be trusted", 0.05 * progress.fraction);
@@ -362,7 +366,7 @@ std::vector<std::string> compared_engines(const Scene& scene, const std::string&
   if (std::find(covering.begin(), covering.end(), "textbook-float") != covering.end()) names.emplace_back("textbook-float");
   const std::string runs_it = detail::choose_engine(scene, all_disks(scene), engine).name;
   names.emplace_back("textbook");
-  if (runs_it == "fast") names.emplace_back("fast");
+  if (runs_scenes(runs_it)) names.push_back(runs_it);
   names.emplace_back("textbook-long-double");
   return names;
 }
