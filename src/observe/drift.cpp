@@ -61,8 +61,8 @@ void note_drifts(std::vector<Measurement>& measured, const Scene& scene) {
   const auto is_chance = [&](const Halves& halves, std::size_t compared) {
     return halves.probability * static_cast<double>(compared) >= share * false_alarms;
   };
-  const bool is_steady_expected = !effects.dissipate() && !(effects.drag && effects.drag->rate > 0.0) &&
-                                  !(effects.growth && effects.growth->rate > 0.0) && scene.changes.empty();
+  const bool is_steady_expected =
+      !effects.dissipate() && !(effects.drag_rate() > 0.0) && !(effects.growth_rate() > 0.0) && scene.changes.empty();
   for (Measurement& one : measured) {
     for (Scalar& scalar : one.scalars)
       if (scalar.halves && !is_chance(*scalar.halves, numbers))

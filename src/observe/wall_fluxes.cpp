@@ -40,25 +40,14 @@ class WallFluxes final : public SavedObservable<WallFluxes> {
   void sample(const State& state, const Totals& totals) override {
     const Eigen::Vector2d lengths = box_of(run_.scene.box, state).lengths();
     const double dt = state.time - time_;
-    const std::array<double, 4> bounded = bounded_parts(state);
-    const double energy = total_energy(run_.scene.box, run_.scene.effects, run_.disks, state);
-    const Eigen::Vector2d momentum = total_momentum(run_.disks, state);
-    for (std::size_t side = 0; side < 4; ++side) {
+    const BoundedParts bounded = bounded_parts(state);
+    for (std::size_t side = 0; side < 4 && dt > 0.0; ++side) {
       const int along = side < 2 ? 1 : 0;
-      const double length = 0.5 * (lengths[along] + lengths_[along]);
-      if (dt > 0.0) momentum_[side].add(totals.wall_impulse[side] - impulse_[side], length * dt, bounded_[side], bounded[side]);
-      const auto part = [](bool is_alone, double whole) { return is_alone ? whole : 0.0; };
-      const auto of_momentum = [&](const Eigen::Vector2d& p) { return part(is_alone_with_momentum_[side], p[along]); };
-      const auto of_energy = [&](double all) { return part(is_alone_with_energy_[side], all); };
-      if (dt > 0.0)
-        shear_[side].add(totals.wall_shear[side] - shears_[side], length * dt, of_momentum(momentum_of_disks_),
-                         of_momentum(momentum));
-      if (dt > 0.0)
-        energy_[side].add(totals.wall_energy[side] - energies_[side], length * dt, of_energy(energy_of_disks_),
-                          of_energy(energy));
+      const double weight = 0.5 * (lengths[along] + lengths_[along]) * dt;
+      momentum_[side].add(totals.wall_impulse[side] - impulse_[side], weight, bounded_.momentum[side], bounded.momentum[side]);
+      shear_[side].add(totals.wall_shear[side] - shears_[side], weight, bounded_.shear[side], bounded.shear[side]);
+      energy_[side].add(totals.wall_energy[side] - energies_[side], weight, bounded_.energy[side], bounded.energy[side]);
     }
-    energy_of_disks_ = energy;
-    momentum_of_disks_ = momentum;
     time_ = state.time;
     lengths_ = lengths;
     bounded_ = bounded;
@@ -81,30 +70,36 @@ class WallFluxes final : public SavedObservable<WallFluxes> {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(time_, lengths_, impulse_, shears_, energies_, bounded_, momentum_, shear_, energy_);
-    archive(energy_of_disks_, momentum_of_disks_);
+    archive(time_, lengths_, impulse_, shears_, energies_, bounded_.momentum, bounded_.shear, bounded_.energy);
+    archive(momentum_, shear_, energy_);
   }
 
  private:
-  /// Returns the bounded part of the momentum that each wall receives.
-  [[nodiscard]] std::array<double, 4> bounded_parts(const State& state) const {
-    std::array<double, 4> parts{};
+  /// The bounded parts of what each wall receives; 0 where none is known.
+  struct BoundedParts {
+    std::array<double, 4> momentum{}, shear{}, energy{};
+  };
+  [[nodiscard]] BoundedParts bounded_parts(const State& state) const {
+    BoundedParts parts;
     for (int axis = 0; axis < 2; ++axis) {
       const double reach = reach_between_walls(run_, axis);
       if (run_.scene.box.periodic(axis) || reach == 0.0) continue;
       const WallMomentum of_disks = wall_momentum(run_, state, axis);
       const auto low = 2 * static_cast<std::size_t>(axis);
-      parts[low] = 0.5 * (of_disks.action / reach - of_disks.momentum);
-      parts[low + 1] = 0.5 * (of_disks.action / reach + of_disks.momentum);
+      parts.momentum[low] = 0.5 * (of_disks.action / reach - of_disks.momentum);
+      parts.momentum[low + 1] = 0.5 * (of_disks.action / reach + of_disks.momentum);
+    }
+    for (std::size_t side = 0; side < 4; ++side) {
+      if (is_alone_with_momentum_[side]) parts.shear[side] = total_momentum(run_.disks, state)[side < 2 ? 1 : 0];
+      if (is_alone_with_energy_[side]) parts.energy[side] = total_energy(run_.scene.box, run_.scene.effects, run_.disks, state);
     }
     return parts;
   }
 
   double time_ = 0.0;
   Eigen::Vector2d lengths_ = Eigen::Vector2d::Zero();
-  std::array<double, 4> impulse_{}, shears_{}, energies_{}, bounded_{};
-  double energy_of_disks_ = 0.0;
-  Eigen::Vector2d momentum_of_disks_ = Eigen::Vector2d::Zero();
+  std::array<double, 4> impulse_{}, shears_{}, energies_{};
+  BoundedParts bounded_;
   std::array<bool, 4> is_alone_with_energy_{}, is_alone_with_momentum_{};
   std::array<RateWithBoundedPart, 4> momentum_, shear_, energy_;
 };

@@ -4,6 +4,7 @@
 #include "observe/mechanics.hpp"
 #include "scene/effect_traits.hpp"
 #include "text/numbers.hpp"
+#include "theory/equation_of_state.hpp"
 #include "theory/kinetic.hpp"
 
 #include <carom/observe.hpp>
@@ -24,9 +25,6 @@ namespace {
 /// Length of the trial run. It is checked every tenth of a second and so ends at 0.2 s: long enough for some hundred thousand
 /// collisions, and short enough for a person not to wait.
 constexpr double trial_seconds = 0.15;
-
-/// Largest packing fraction at which the disks are a fluid with a known collision rate.
-constexpr double densest_known = 0.69;
 
 /// Disks that lose energy and fall come to rest where they have so many times more collisions in a unit of time in the second
 /// half of a trial than in the first: more than in a gas whose height settles.
@@ -105,7 +103,7 @@ std::optional<double> rate_by_theory(const Scene& scene, double kT) {
   const bool uniform = std::all_of(scene.species.begin(), scene.species.end(), fills_the_box);
   // With few disks the rate differs by about 1/N of itself.
   if (!smooth || !periodic || !uniform || scene.disk_count() < 100 || !(kT > 0.0)) return std::nullopt;
-  if (scene.packing_fraction() > densest_known) return std::nullopt;
+  if (scene.packing_fraction() > theory::densest_fluid) return std::nullopt;
   std::vector<theory::Component> gas;
   for (const Species& species : scene.species)
     gas.push_back({static_cast<double>(species.count) / scene.box.area(), species.radius, species.mass});

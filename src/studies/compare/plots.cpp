@@ -20,7 +20,7 @@ constexpr const char* in_free_times = "dt (mean free times)";
 std::vector<Method> methods_of(const Comparison& comparison) {
   std::vector<Method> methods;
   for (const MethodRun& run : comparison.runs) {
-    const auto same = [&](const Method& m) { return m.name == run.method.name && m.dt == run.method.dt; };
+    const auto same = [&](const Method& m) { return m.same_step(run.method); };
     if (std::none_of(methods.begin(), methods.end(), same)) methods.push_back(run.method);
   }
   return methods;
@@ -90,7 +90,7 @@ Plot error_in_time(const Comparison& comparison) {
     for (std::size_t k = 0; k < plan.samples; ++k) {
       std::vector<double> errors;
       for (const MethodRun& run : comparison.runs)
-        if (run.method.name == method.name && run.method.dt == method.dt && run.error.size() > k) errors.push_back(run.error[k]);
+        if (run.method.same_step(method) && run.error.size() > k) errors.push_back(run.error[k]);
       if (errors.empty()) break;
       const Spread spread = spread_of(errors);
       series.x.push_back(plan.in_free_times(static_cast<double>(k + 1) * plan.sample_step));

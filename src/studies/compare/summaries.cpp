@@ -21,7 +21,7 @@ MethodSummary summary_of(const Comparison& comparison, const Method& method) {
   std::vector<double> error, seconds, setup, per_time, horizons, Z, rate, path, Z_bias, rate_bias, path_bias;
   const std::size_t early = comparison.plan.early;
   for (const MethodRun& run : comparison.runs) {
-    if (run.method.name != method.name || run.method.dt != method.dt) continue;
+    if (!run.method.same_step(method)) continue;
     ++summary.runs;
     if (early >= 1 && run.error.size() >= early) error.push_back(run.error[early - 1]);
     seconds.push_back(run.seconds_early);
@@ -92,7 +92,7 @@ Spread spread_of(std::vector<double> values) {
 std::vector<MethodSummary> summaries_of(const Comparison& comparison) {
   std::vector<MethodSummary> all;
   for (const MethodRun& run : comparison.runs) {
-    const auto same = [&](const MethodSummary& s) { return s.method.name == run.method.name && s.method.dt == run.method.dt; };
+    const auto same = [&](const MethodSummary& s) { return s.method.same_step(run.method); };
     if (std::none_of(all.begin(), all.end(), same)) all.push_back(summary_of(comparison, run.method));
   }
   return all;
