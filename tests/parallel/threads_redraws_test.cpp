@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -131,20 +130,7 @@ TEST(Threads, GoOnWithRedrawsFromWhatOtherNumbersOfThemHaveSaved) {
   for (const Redrawing how : all_redrawing) {
     Scene scene = lean_gas(4000, 0.5, Boundary::periodic);
     redraw(scene, how, 1.0);
-    Simulation alone = make_simulation(scene), shared = make_simulation(scene);
-    shared.set_threads({.domains = 4});
-    alone.run_until(5.0);
-    shared.run_until(1.9);
-    std::stringstream saved;
-    shared.save(saved);
-    Simulation one = restore_simulation(scene, saved);
-    one.run_until(3.1);
-    std::stringstream again;
-    one.save(again);
-    Simulation three = restore_simulation(scene, again);
-    three.set_threads({.domains = 3});
-    three.run_until(5.0);
-    expect_same(alone, three, "resumed");
+    expect_same_after_saves(scene, 1.9, 3.1, 5.0);
   }
 }
 

@@ -211,21 +211,7 @@ TEST(Threads, StopAtAnExactNumberOfEvents) {
 }
 
 TEST(Threads, GoOnFromWhatOtherNumbersOfThemHaveSaved) {
-  const Scene scene = lean_gas(4000, 0.5, Boundary::periodic);
-  Simulation alone = make_simulation(scene), shared = make_simulation(scene);
-  shared.set_threads({.domains = 4});
-  alone.run_until(6.0);
-  shared.run_until(2.3);
-  std::stringstream saved;
-  shared.save(saved);
-  Simulation one = restore_simulation(scene, saved);
-  one.run_until(4.1);
-  std::stringstream again;
-  one.save(again);
-  Simulation three = restore_simulation(scene, again);
-  three.set_threads({.domains = 3});
-  three.run_until(6.0);
-  expect_same(alone, three, "resumed");
+  expect_same_after_saves(lean_gas(4000, 0.5, Boundary::periodic), 2.3, 4.1, 6.0);
 }
 
 TEST(Threads, GoOnAfterSingleStepsAndChanges) {

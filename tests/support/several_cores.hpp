@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <span>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -102,6 +103,25 @@ inline std::vector<double> told_events(const Scene& scene, const Threads& thread
   };
   run_schedule(simulation, hooks);
   return told;
+}
+
+/// Compares a run that four domains have until `first`, one core until `second`, and three domains until `end`, each from what
+/// the one before has saved, with one that one core has all along.
+inline void expect_same_after_saves(const Scene& scene, double first, double second, double end) {
+  Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+  shared.set_threads({.domains = 4});
+  alone.run_until(end);
+  shared.run_until(first);
+  std::stringstream saved;
+  shared.save(saved);
+  Simulation one = restore_simulation(scene, saved);
+  one.run_until(second);
+  std::stringstream again;
+  one.save(again);
+  Simulation three = restore_simulation(scene, again);
+  three.set_threads({.domains = 3});
+  three.run_until(end);
+  expect_same(alone, three, "resumed");
 }
 
 }  // namespace carom::test
