@@ -31,9 +31,9 @@ RunMeasurements::RunMeasurements(const Simulation& simulation) : simulation_(sim
 
 void RunMeasurements::start(const State& state) {
   const Scene& scene = simulation_.scene();
-  const Energies energies = energies_of(scene.box, scene.effects, simulation_.disks(), state);
-  report_.energy_initial = energies.total();
-  if (has_potential(scene.effects)) report_.energy_scale = energies.scale();
+  const Energies now = energies(state);
+  report_.energy_initial = now.total();
+  if (has_potential(scene.effects)) report_.energy_scale = now.scale();
   report_.momentum_initial = total_momentum(simulation_.disks(), state);
   look_for_overlap(state);
   if (scene.run.accept_overlap) report_.overlap_at_start = report_.max_relative_overlap;
@@ -50,10 +50,20 @@ void RunMeasurements::sample(const State& state) {
   look_for_overlap(state);
 }
 
+/// Where a change stops a wall, the box ends there from then on. Heights are still counted from where it ended at the start.
+Energies RunMeasurements::energies(const State& state) const {
+  const Scene& scene = simulation_.scene();
+  const Box& at_start = simulation_.whole_scene().box;
+  const Eigen::Vector2d g = scene.effects.acceleration();
+  Box box = scene.box;
+  for (int axis = 0; axis < 2; ++axis)
+    if (g[axis] != 0.0) box.lower[axis] = at_start.lower[axis], box.upper[axis] = at_start.upper[axis];
+  return energies_of(box, scene.effects, simulation_.disks(), state);
+}
+
 /// The energy of disks and pistons, and of fields, before the change and after it. One that cannot be made gives none.
 void RunMeasurements::change(bool made) {
-  const Scene& scene = simulation_.scene();
-  const double energy = total_energy(scene.box, scene.effects, simulation_.disks(), simulation_.state());
+  const double energy = energies(simulation_.state()).total();
   if (made) energy_of_changes_ += energy - energy_before_change_, ++changes_;
   energy_before_change_ = energy;
 }
@@ -102,6 +112,15 @@ void RunMeasurements::measure_Z(const RunResult& result, double temperature) {
 
 namespace {
 
+/// Puts the four walls into a state that has none since they stand where the box ends, such as those that a change has stopped.
+void put_walls(State& state, const Box& box) {
+  if (!state.walls.empty()) return;
+  for (const int axis : {0, 1}) {
+    state.walls.push_back({box.lower[axis], 0.0});
+    state.walls.push_back({box.upper[axis], 0.0});
+  }
+}
+
 /// Returns whether a change of the scene sets a key of this table.
 bool some_change_sets(const Scene& scene, std::string_view table) {
   return std::ranges::any_of(scene.changes, [&](const Change& change) {
@@ -114,12 +133,9 @@ bool some_change_sets(const Scene& scene, std::string_view table) {
 
 void RunMeasurements::add_changes(const Scene& whole) {
   EffectsReport& report = report_.of_effects;
-  const Scene& now = simulation_.scene();
   report_.engine_asked = simulation_.engine_reason() == detail::engine_was_asked_for ? simulation_.engine() : "auto";
   report.changes = {.made = changes_, .energy = energy_of_changes_};
-  const State state = simulation_.state();
-  if (report.energies_end) report.energies_end = energies_of(now.box, now.effects, simulation_.disks(), state);
-  if (report.packing_fraction_end) report.packing_fraction_end = packing_fraction(now.box, simulation_.disks(), state);
+  if (report.energies_end) report.energies_end = energies(simulation_.state());
   // What drag takes depends on when it acted, and a wall's energy counts as supplied unless it is a piston's.
   const bool is_untold = whole.effects.drag_rate() > 0.0 || (has_pistons(whole.effects) && some_change_sets(whole, "walls"));
   if (exchanges_uncounted_energy(whole.effects) || is_untold)
@@ -131,7 +147,7 @@ void RunMeasurements::add_changes(const Scene& whole) {
 RunReport RunMeasurements::report(const RunResult& result, double wall_seconds) {
   const Scene& scene = simulation_.scene();
   const Disks& disks = simulation_.disks();
-  const State state = simulation_.state();
+  State state = simulation_.state();
   report_.measured = result.measured;
   if (!result.measured) start(state);
   look_for_overlap(state);
@@ -145,7 +161,7 @@ RunReport RunMeasurements::report(const RunResult& result, double wall_seconds) 
   report_.wall_seconds = wall_seconds;
   report_.loop_seconds = result.loop_seconds;
   report_.threads = simulation_.thread_counts();
-  report_.energy_final = total_energy(scene.box, scene.effects, disks, state);
+  report_.energy_final = energies(state).total();
   report_.momentum_final = total_momentum(disks, state);
   report_.temperature_mean = samples_ > 0 ? temperature_sum_ / static_cast<double>(samples_) : temperature;
   report_.stopped = result.stopped;
@@ -153,6 +169,7 @@ RunReport RunMeasurements::report(const RunResult& result, double wall_seconds) 
   report_.faults = result.faults;
   report_.blocked_by = result.blocked_by;
   const Scene& whole = simulation_.whole_scene();
+  if (!whole.changes.empty()) put_walls(state, scene.box);
   report_.of_effects = effects_report(whole, disks, report_.totals, state);
   if (!whole.changes.empty()) add_changes(whole);
   if (!result.measured) report_.of_effects.energy_supplied.reset();  // totals began before the initial energy did

@@ -1,6 +1,7 @@
 #pragma once
 // The measurements of every run: energy, momentum, temperature, pressure and overlap. The schedule's hooks feed them.
 
+#include "observe/energy.hpp"
 #include "observe/pressure.hpp"
 #include "observe/run_report.hpp"
 
@@ -30,6 +31,7 @@ class RunMeasurements {
   }
 
  private:
+  [[nodiscard]] Energies energies(const State& state) const;
   void look_for_overlap(const State& state);
   void add_kinetic(double time, double temperature);
   void add_changes(const Scene& whole);

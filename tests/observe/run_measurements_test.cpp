@@ -209,6 +209,24 @@ TEST(RunMeasurements, AChangeThatCannotBeMadeGivesNoEnergy) {
   EXPECT_NEAR(report.energy_final, 4.0 * report.energy_initial, 1e-12 * report.energy_initial);
 }
 
+TEST(RunMeasurements, AFloorThatAChangeStopsLeavesTheZeroOfHeightsWhereItWas) {
+  Scene scene = gas_scene(16, 0.1, Boundary::walls);
+  scene.effects.gravity = Gravity{.acceleration = {0.0, -1.0}};
+  scene.effects.walls[2].velocity = -0.5;
+  scene.run.time = 3.0;
+  scene.changes = {{2.0, SetKeys{{"walls.bottom.velocity=0"}}}};
+  const RunReport report = measure(scene).report;
+  EXPECT_EQ(report.of_effects.changes->made, 1U);
+  EXPECT_EQ(report.of_effects.changes->energy, 0.0);  // disks are where they were, and as fast
+  const double gained = report.energy_final - report.energy_initial;
+  EXPECT_NEAR(gained, report.of_effects.energy_supplied.value(), 1e-12 * report.energy_scale.value());
+  EXPECT_DOUBLE_EQ(report.of_effects.energies_end->total(), report.energy_final);
+  EXPECT_DOUBLE_EQ(report.of_effects.walls[2].end->position, scene.box.lower.y() - 1.0);
+  EXPECT_EQ(report.of_effects.walls[2].end->velocity, 0.0);
+  const double larger = scene.box.area() + scene.box.lengths().x();
+  EXPECT_NEAR(report.of_effects.packing_fraction_end.value(), scene.packing_fraction() * scene.box.area() / larger, 1e-15);
+}
+
 TEST(RunMeasurements, ADeeplyOverlappingStateIsReported) {
   Scene scene = gas_scene(16, 0.3, Boundary::periodic);
   scene.run.time = 0.0;
