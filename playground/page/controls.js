@@ -161,7 +161,7 @@ function ownStart() {
   return list;
 }
 
-const mostDisks = 100_000;  // as in playground.cpp
+const mostDisks = 100_000;  // as in engine/playground.cpp
 
 /// Loads a scene of the list with the numbers of its start, those not given being the usual ones.
 async function loadScene(scene, start = {}) {

@@ -71,6 +71,14 @@ double potential_energy(const Box& box, const Effects& effects, const Disks& dis
   return static_cast<double>(sum + energy_of_loads(box, effects, state));
 }
 
+Box with_ground_of_start(const Box& now, const Box& at_start, const Effects& effects) {
+  const Eigen::Vector2d g = effects.acceleration();
+  Box box = now;
+  for (int axis = 0; axis < 2; ++axis)
+    if (g[axis] != 0.0) box.lower[axis] = at_start.lower[axis], box.upper[axis] = at_start.upper[axis];
+  return box;
+}
+
 double piston_energy(const Effects& effects, const State& state) {
   if (state.walls.size() != 4) return 0.0;
   double sum = 0.0;

@@ -26,6 +26,10 @@ namespace carom {
 /// Returns the sum of M u^2 / 2 over pistons
 [[nodiscard]] double piston_energy(const Effects& effects, const State& state);
 
+/// Returns the box by which to measure now what was measured by the box of the start: a wall that a change has stopped moves the
+/// edge of the box, but heights in a field are still counted from where it was.
+[[nodiscard]] Box with_ground_of_start(const Box& now, const Box& at_start, const Effects& effects);
+
 /// Energy, and of what kind it is.
 struct Energies {
   double kinetic = 0.0;

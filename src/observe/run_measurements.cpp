@@ -50,14 +50,9 @@ void RunMeasurements::sample(const State& state) {
   look_for_overlap(state);
 }
 
-/// Where a change stops a wall, the box ends there from then on. Heights are still counted from where it ended at the start.
 Energies RunMeasurements::energies(const State& state) const {
   const Scene& scene = simulation_.scene();
-  const Box& at_start = simulation_.whole_scene().box;
-  const Eigen::Vector2d g = scene.effects.acceleration();
-  Box box = scene.box;
-  for (int axis = 0; axis < 2; ++axis)
-    if (g[axis] != 0.0) box.lower[axis] = at_start.lower[axis], box.upper[axis] = at_start.upper[axis];
+  const Box box = with_ground_of_start(scene.box, simulation_.whole_scene().box, scene.effects);
   return energies_of(box, scene.effects, simulation_.disks(), state);
 }
 
