@@ -293,11 +293,9 @@ CollisionFunction rule_of(const nb::object& function) {
   };
 }
 
-}  // namespace
-
-void add_simulation(nb::module_& module) {
-  add_colliding_pair(module);
-  nb::class_<Running>(module, "Simulation")
+/// Adds how a simulation is made, saved and restored.
+void add_making_and_saving(nb::class_<Running>& simulation) {
+  simulation
       .def(
           "__init__",
           [](Running* self, const Scene& scene, const std::string& engine, const std::optional<std::string>& method, double dt,
@@ -323,14 +321,17 @@ void add_simulation(nb::module_& module) {
             detail::check_saved_head(in);
           },
           nb::arg("saved"), "Raises RuntimeError where it was not saved by this build.")
-      .def("save",
-           [](Running& self) {
-             std::ostringstream out;
-             self.use_alone([&](Simulation& simulation) { simulation.save(out); });
-             const std::string bytes = out.str();
-             return nb::bytes(bytes.data(), bytes.size());
-           })
-      .def_prop_ro("time", [](Running& self) { return self.use([](Simulation& s) { return s.time(); }); })
+      .def("save", [](Running& self) {
+        std::ostringstream out;
+        self.use_alone([&](Simulation& s) { s.save(out); });
+        const std::string bytes = out.str();
+        return nb::bytes(bytes.data(), bytes.size());
+      });
+}
+
+/// Adds what a simulation knows of itself.
+void add_facts(nb::class_<Running>& simulation) {
+  simulation.def_prop_ro("time", [](Running& self) { return self.use([](Simulation& s) { return s.time(); }); })
       .def_prop_ro("collisions", [](Running& self) { return self.use([](Simulation& s) { return s.counts().pair; }); })
       .def_prop_ro("engine", [](Running& self) { return self.use([](Simulation& s) { return s.engine(); }); })
       .def_prop_ro("changes_to_come",
@@ -349,6 +350,17 @@ void add_simulation(nb::module_& module) {
                                array_that_owns<std::int32_t>(disks.species, {n}));
            })
       .def("state", [](Running& self) { return self.use_alone([](Simulation& s) { return s.state(); }); })
+      .def_prop_ro("has_collision_rule",
+                   [](Running& self) { return self.use([](Simulation& s) { return s.has_collision_rule(); }); })
+      .def_prop_ro("threads", [](Running& self) { return self.use([](Simulation& s) { return s.threads(); }); })
+      .def_prop_ro("thread_counts",
+                   [](Running& self) { return dict_of(self.use([](Simulation& s) { return s.thread_counts(); })); })
+      .def("check_invariants", [](Running& self) { return self.use_alone([](Simulation& s) { return s.check_invariants(); }); });
+}
+
+/// Adds how it goes on, and what it hands out on the way.
+void add_running(nb::class_<Running>& simulation) {
+  simulation
       .def(
           "run_until",
           [](Running& self, double time, std::optional<std::uint64_t> collisions, const nb::object& report) {
@@ -431,7 +443,13 @@ void add_simulation(nb::module_& module) {
             return std::tuple(std::move(recording.samples), std::move(log), to_string(reason));
           },
           nb::arg("until"), nb::arg("step"), nb::arg("most_events"), nb::arg("report").none() = nb::none(),
-          "Returns states from now to until, all collisions, or None where they are more than that or not known, and the reason.")
+          "Returns states from now to until, all collisions, or None where they are more than that or not known, and the "
+          "reason.");
+}
+
+/// Adds what a program changes in it.
+void add_changing(nb::class_<Running>& simulation) {
+  simulation
       .def(
           "set_effects",
           [](Running& self, const std::string& toml) {
@@ -456,17 +474,22 @@ void add_simulation(nb::module_& module) {
             self.use_alone([&](Simulation& s) { s.set_collision_rule(std::move(function)); });
           },
           nb::arg("rule").none())
-      .def_prop_ro("has_collision_rule",
-                   [](Running& self) { return self.use([](Simulation& s) { return s.has_collision_rule(); }); })
       .def(
           "set_threads",
           [](Running& self, std::size_t threads) { self.use_alone([&](Simulation& s) { s.set_threads({.threads = threads}); }); },
           nb::arg("threads"))
-      .def_prop_ro("threads", [](Running& self) { return self.use([](Simulation& s) { return s.threads(); }); })
-      .def_prop_ro("thread_counts",
-                   [](Running& self) { return dict_of(self.use([](Simulation& s) { return s.thread_counts(); })); })
-      .def("reset_clock", [](Running& self) { self.use([](Simulation& s) { s.reset_clock(); }); })
-      .def("check_invariants", [](Running& self) { return self.use_alone([](Simulation& s) { return s.check_invariants(); }); });
+      .def("reset_clock", [](Running& self) { self.use([](Simulation& s) { s.reset_clock(); }); });
+}
+
+}  // namespace
+
+void add_simulation(nb::module_& module) {
+  add_colliding_pair(module);
+  nb::class_<Running> simulation(module, "Simulation");
+  add_making_and_saving(simulation);
+  add_facts(simulation);
+  add_running(simulation);
+  add_changing(simulation);
 }
 
 }  // namespace carom::python
