@@ -22,11 +22,11 @@ WallReport wall_report(const Scene& scene, const Totals& totals, const State& en
   wall.name = wall_names[side];
   wall.momentum = totals.wall_impulse[side];
   wall.energy = totals.wall_energy[side];
-  const std::size_t across = side < 2 ? 2 : 0;  // the walls that this one runs between
+  const std::size_t across = axis_of_wall(side) == 0 ? 2 : 0;  // the walls that this one runs between
   const bool keeps_length = !moves(scene.effects.walls[across]) && !moves(scene.effects.walls[across + 1]);
   if (scene.effects.walls[side].temperature) wall.shear_momentum = totals.wall_shear[side];
   if (end.time > 0.0) {
-    const double length = scene.box.lengths()[side < 2 ? 1 : 0];
+    const double length = scene.box.lengths()[1 - axis_of_wall(side)];
     wall.force = wall.momentum / end.time;
     if (keeps_length) wall.pressure = *wall.force / length;
     if (keeps_length && wall.shear_momentum) wall.shear_stress = *wall.shear_momentum / end.time / length;
@@ -79,7 +79,7 @@ EffectsReport effects_report(const Scene& scene, const Disks& disks, const Total
   const Effects& effects = scene.effects;
   EffectsReport report;
   for (std::size_t side = 0; side < 4; ++side)
-    if (!scene.box.periodic(side < 2 ? 0 : 1) && !scene.box.is_circle)
+    if (!scene.box.periodic(axis_of_wall(side)) && !scene.box.is_circle)
       report.walls.push_back(wall_report(scene, totals, end, side));
   if (any_wall(effects, may_move)) report.packing_fraction_end = packing_fraction(scene.box, disks, end);
   if (has_more_than_kinetic_energy(effects)) report.energies_end = energies_of(scene.box, effects, disks, end);

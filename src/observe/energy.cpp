@@ -34,10 +34,10 @@ Wide energy_of_loads(const Box& box, const Effects& effects, const State& state)
   Wide sum = 0.0;
   for (std::size_t side = 0; side < 4; ++side) {
     if (!effects.walls[side].mass) continue;
-    const int axis = side < 2 ? 0 : 1;
-    const bool upper = side % 2 == 1;
-    const double outward = upper ? state.walls[side].position - box.upper[axis] : box.lower[axis] - state.walls[side].position;
-    sum += static_cast<Wide>(effects.walls[side].load.value_or(0.0) * box.lengths()[1 - axis]) * static_cast<Wide>(outward);
+    const double towards_upper = state.walls[side].position - edge_of(box, side);
+    const double outward = is_upper_wall(side) ? towards_upper : -towards_upper;
+    sum += static_cast<Wide>(effects.walls[side].load.value_or(0.0) * box.lengths()[1 - axis_of_wall(side)]) *
+           static_cast<Wide>(outward);
   }
   return sum;
 }

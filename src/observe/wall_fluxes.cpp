@@ -30,7 +30,7 @@ class WallFluxes final : public SavedObservable<WallFluxes> {
       const Effects& with = run.scene.effects;
       Effects without = with;
       without.walls[side] = {};
-      const int along = side < 2 ? 1 : 0;
+      const int along = 1 - axis_of_wall(side);
       is_alone_with_energy_[side] = !detail::conserve_energy(with) && detail::conserve_energy(without);
       is_alone_with_momentum_[side] =
           !conserves_momentum(run.scene.box, with, along) && conserves_momentum(run.scene.box, without, along);
@@ -42,7 +42,7 @@ class WallFluxes final : public SavedObservable<WallFluxes> {
     const double dt = state.time - time_;
     const BoundedParts bounded = bounded_parts(state);
     for (std::size_t side = 0; side < 4 && dt > 0.0; ++side) {
-      const int along = side < 2 ? 1 : 0;
+      const int along = 1 - axis_of_wall(side);
       const double weight = 0.5 * (lengths[along] + lengths_[along]) * dt;
       momentum_[side].add(totals.wall_impulse[side] - impulse_[side], weight, bounded_.momentum[side], bounded.momentum[side]);
       shear_[side].add(totals.wall_shear[side] - shears_[side], weight, bounded_.shear[side], bounded.shear[side]);
@@ -59,7 +59,7 @@ class WallFluxes final : public SavedObservable<WallFluxes> {
   [[nodiscard]] Measurement finish(double, const Totals&) override {
     Measurement found{.name = name()};
     for (std::size_t side = 0; side < 4; ++side) {
-      if (run_.scene.box.periodic(side < 2 ? 0 : 1)) continue;
+      if (run_.scene.box.periodic(axis_of_wall(side))) continue;
       put(found, {.name = std::string("momentum_") + wall_names[side], .unit = "energy / area"}, momentum_[side]);
       if (run_.scene.effects.walls[side].temperature)
         put(found, {.name = std::string("shear_") + wall_names[side], .unit = "energy / area"}, shear_[side]);
@@ -90,7 +90,7 @@ class WallFluxes final : public SavedObservable<WallFluxes> {
       parts.momentum[low + 1] = 0.5 * (of_disks.action / reach + of_disks.momentum);
     }
     for (std::size_t side = 0; side < 4; ++side) {
-      if (is_alone_with_momentum_[side]) parts.shear[side] = total_momentum(run_.disks, state)[side < 2 ? 1 : 0];
+      if (is_alone_with_momentum_[side]) parts.shear[side] = total_momentum(run_.disks, state)[1 - axis_of_wall(side)];
       if (is_alone_with_energy_[side]) parts.energy[side] = total_energy(run_.scene.box, run_.scene.effects, run_.disks, state);
     }
     return parts;

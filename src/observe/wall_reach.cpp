@@ -62,12 +62,11 @@ class Reach {
 Box reach_of_walls(const ObservedRun& run, const State& start) {
   Box box = run.scene.box;
   if (box.is_circle) return box;
-  const auto side_of = [&box](std::size_t w) -> double& { return (w % 2 == 1 ? box.upper : box.lower)[axis_of_wall(w)]; };
   std::array<std::optional<Reach>, 4> walls;
   for (std::size_t w = 0; w < walls.size(); ++w) {
     if (box.periodic(axis_of_wall(w))) continue;
-    const double sign = w % 2 == 1 ? 1.0 : -1.0;
-    const double displacement = start.walls.size() == walls.size() ? sign * (start.walls[w].position - side_of(w)) : 0.0;
+    const double sign = is_upper_wall(w) ? 1.0 : -1.0;
+    const double displacement = start.walls.size() == walls.size() ? sign * (start.walls[w].position - edge_of(box, w)) : 0.0;
     walls[w].emplace(sign, displacement, run.scene.run.equilibrate.has_value());
   }
   const double end = run.time.value_or(std::numeric_limits<double>::infinity());
@@ -85,7 +84,7 @@ Box reach_of_walls(const ObservedRun& run, const State& start) {
   }
   go_on_until(end);
   for (std::size_t w = 0; w < walls.size(); ++w)
-    if (walls[w]) side_of(w) += (w % 2 == 1 ? 1.0 : -1.0) * walls[w]->furthest();
+    if (walls[w]) edge_of(box, w) += (w % 2 == 1 ? 1.0 : -1.0) * walls[w]->furthest();
   return box;
 }
 

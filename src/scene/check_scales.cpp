@@ -231,10 +231,9 @@ void check_coordinates(const Scene& scene, const Sizes& sizes) {
 /// Walls that run away, until the end of the run, or where that is not known while a disk moves by its radius.
 void check_runaways(const Scene& scene, const Sizes& sizes, double fastest) {
   for (std::size_t w = 0; w < scene.effects.walls.size(); ++w) {
-    const int axis = axis_of_wall(w);
-    const bool upper = w % 2 == 1;
+    const bool upper = is_upper_wall(w);
     const double outward = (upper ? 1.0 : -1.0) * scene.effects.walls[w].velocity.value_or(0.0);
-    const double room = most_radii * sizes.smallest - std::abs(upper ? scene.box.upper[axis] : scene.box.lower[axis]);
+    const double room = most_radii * sizes.smallest - std::abs(edge_of(scene.box, w));
     const double before = scene.run.equilibrate ? scene.run.equilibrate->time.value_or(0.0) : 0.0;
     const double time = scene.run.time ? before + *scene.run.time : fastest > 0.0 ? sizes.smallest / fastest : 0.0;
     if (!(outward > 0.0) || outward * time <= room) continue;

@@ -129,7 +129,8 @@ void check_vibrating_sweep(const Scene& scene, std::size_t w) {
   const std::vector<Obstacle>& shapes = scene.effects.obstacles;
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     const Rectangle bounds = bounds_of(shapes[k]);
-    const double room = w % 2 == 1 ? scene.box.upper[axis] - bounds.upper[axis] : bounds.lower[axis] - scene.box.lower[axis];
+    const double room =
+        is_upper_wall(w) ? scene.box.upper[axis] - bounds.upper[axis] : bounds.lower[axis] - scene.box.lower[axis];
     if (reach <= room) continue;
     throw Refusal(
         path_of(w) + ".vibration",
@@ -156,7 +157,7 @@ void check_amplitude(const Scene& scene, std::size_t w) {
 void check_sweep(const Scene& scene, std::size_t w) {
   const WallProperties& wall = scene.effects.walls[w];
   const int axis = axis_of_wall(w);
-  const bool upper = w % 2 == 1;
+  const bool upper = is_upper_wall(w);
   const double inward = upper ? -velocity_of(wall) : velocity_of(wall);
   if (!(inward > 0.0)) return;
   const double travel = inward * duration(scene.run);

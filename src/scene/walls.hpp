@@ -1,6 +1,7 @@
 #pragma once
 // The four walls of a scene: their names, axes and properties.
 
+#include <carom/box.hpp>
 #include <carom/effects.hpp>
 
 #include <algorithm>
@@ -14,6 +15,12 @@ namespace carom {
 inline constexpr std::array<const char*, 4> wall_names = {"left", "right", "bottom", "top"};
 
 constexpr int axis_of_wall(std::size_t wall) { return static_cast<int>(wall / 2); }
+constexpr bool is_upper_wall(std::size_t wall) { return wall % 2 == 1; }
+/// Returns the edge of the box at which a wall stands.
+inline double& edge_of(Box& box, std::size_t wall) { return (is_upper_wall(wall) ? box.upper : box.lower)[axis_of_wall(wall)]; }
+inline double edge_of(const Box& box, std::size_t wall) {
+  return (is_upper_wall(wall) ? box.upper : box.lower)[axis_of_wall(wall)];
+}
 
 /// Returns whether a wall can be anywhere but where the scene puts it.
 inline bool moves(const WallProperties& wall) {

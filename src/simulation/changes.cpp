@@ -53,9 +53,8 @@ Scene begun_now(Scene scene, const State& state, const std::array<OscillationClo
 void settle(Scene& scene, State& state) {
   for (std::size_t k = 0; k < state.walls.size(); ++k) {
     const WallProperties& wall = scene.effects.walls[k];
-    const auto axis = static_cast<Eigen::Index>(k / 2);
-    if (moves(wall) || scene.box.periodic(static_cast<int>(axis))) continue;
-    (k % 2 == 0 ? scene.box.lower : scene.box.upper)[axis] = state.walls[k].position;
+    if (moves(wall) || scene.box.periodic(axis_of_wall(k))) continue;
+    edge_of(scene.box, k) = state.walls[k].position;
   }
   if (detail::any_acting(scene.effects, &detail::EffectTraits::changes_radii)) return;
   scale_radii(scene, state.scale);

@@ -78,9 +78,8 @@ std::vector<WallState> walls_from(const Scene& scene, const std::vector<WallStat
   std::vector<WallState> walls;
   for (std::size_t k = 0; k < 4; ++k) {
     const WallProperties& wall = scene.effects.walls[k];
-    const auto axis = static_cast<Eigen::Index>(k / 2);
-    const double edge = k % 2 == 0 ? scene.box.lower[axis] : scene.box.upper[axis];
-    walls.push_back({moves(wall) ? given[k].position : edge, wall.mass ? given[k].velocity : wall.velocity.value_or(0.0)});
+    walls.push_back(
+        {moves(wall) ? given[k].position : edge_of(scene.box, k), wall.mass ? given[k].velocity : wall.velocity.value_or(0.0)});
     if (!std::isfinite(walls.back().position) || !std::isfinite(walls.back().velocity))
       throw std::invalid_argument("a wall of the given state is not finite");
   }
