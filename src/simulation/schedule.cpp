@@ -9,10 +9,12 @@
 #include "core/checked_stream.hpp"
 #include "core/seconds.hpp"
 #include "scene/checks.hpp"
+#include "simulation/collision_relay.hpp"
 #include "simulation/disk_table.hpp"
 #include "simulation/finite_state.hpp"
 #include "simulation/moving_as_one.hpp"
 #include "simulation/parts.hpp"
+#include "simulation/sampling_grids.hpp"
 #include "simulation/sampling_times.hpp"
 #include "simulation/standstill.hpp"
 
@@ -22,7 +24,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <exception>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -63,10 +64,11 @@ class Schedule {
         hooks_(hooks),
         make_change_(std::move(make_change)),
         clock_began_(clock_began),
-        sampling_times_(detail::SamplingTimes::of(run_)),
         sample_collisions_(run_.sample_every_collisions.value_or(no_limit)),
         block_collisions_(std::max<std::uint64_t>(16, disks.count() / 2)),
         disks_(disks),
+        grids_(run_, hooks),
+        relay_(hooks),
         standstill_(*engine, disks.count(), smallest_radius, effects_),
         moving_as_one_(std::in_place, *engine, scene, disks, block_collisions_) {}
   Schedule(const Schedule&) = delete;
@@ -78,7 +80,6 @@ class Schedule {
   }
 
   RunResult operator()() {
-    list_grids();
     if (hooks_.resume != nullptr) {
       restore();
     } else if (hooks_.verify_every > 0) {
@@ -90,7 +91,7 @@ class Schedule {
     }
     if (measuring_) measure();
     engine().record_events(false);
-    hand_over_records();
+    relay_.hand_over(engine());
     if (result_.stopped != StopReason::invalid_state) (void)is_finite(engine().state());
     if (hooks_.checkpoint) hooks_.checkpoint(saving_moment(true));
     const bool unverified = since_verified_ > 0 || result_.verified == 0;
@@ -104,10 +105,9 @@ class Schedule {
     archive(measuring_, equilibrating_, next_block_, without_collision_, since_verified_, tolerated_overlap_, standstill_,
             *moving_as_one_, stands_, recording_);
     archive(standing_, result_.samples, result_.loop_seconds, result_.verified, counted_);
-    std::vector<std::uint64_t> next;
-    for (const Grid& grid : grids_) next.push_back(grid.k);
+    std::vector<std::uint64_t> next = grids_.numbers();
     archive(next);
-    for (std::size_t i = 0; i < grids_.size(); ++i) grids_[i].k = i < next.size() ? next[i] : first_after_now(grids_[i]);
+    grids_.go_on(next, measuring_ ? std::optional(engine().now()) : std::nullopt);
   }
 
  private:
@@ -135,15 +135,6 @@ class Schedule {
     return true;
   }
 
-  /// Samples that are to be taken at known times: the scene's own, or those of a hook.
-  struct Grid {
-    detail::SamplingTimes times;
-    std::uint64_t stride;  ///< sample k is at number k * stride of these
-    std::uint64_t last;
-    const SamplingGrid* hook;  ///< null: the scene's own
-    std::uint64_t k = 0;
-  };
-
   void begin_to_measure() {
     measuring_ = clock_began_ = true;
     next_block_ = block_collisions_;
@@ -157,7 +148,7 @@ class Schedule {
     const Instant end = ends_by_time_ ? Instant{*run_.time, 0.0} : forever;
     const std::uint64_t collisions = run_.collisions.value_or(no_limit);
     end_ = {end, collisions};
-    for (Instant when = next_sample(); when < forever; when = next_sample()) {
+    for (Instant when = grids_.next(); when < forever; when = grids_.next()) {
       const bool beyond = end < when;  // by the rounding of k * step, as 3 * 0.1 is beyond 0.3
       if (beyond && !advance_and_count(end, collisions)) return;
       const Instant before = engine().now();
@@ -192,30 +183,7 @@ class Schedule {
   void listen() {
     if (!hooks_.collisions) return;
     const std::span<const std::int32_t> ids = engine().ids();
-    const std::shared_ptr<const DiskTable> disks = disk_table({ids.begin(), ids.end()}, disks_, effects_);
-    // The engine is in the middle of an event: what is thrown has to wait.
-    const auto keep_thrown = [this](auto&& call) {
-      try {
-        if (!thrown_) call();
-      } catch (...) {
-        thrown_ = std::current_exception();
-      }
-    };
-    CollisionListener listener;
-    listener.on_collisions = [this, keep_thrown, taken = CollisionRecords{disks, 0.0, 0.0, {}}](
-                                 const Instant& epoch, std::span<const CollisionRecord> records) mutable {
-      taken.epoch = epoch.high;
-      taken.epoch_remainder = epoch.low;
-      taken.records = records;
-      keep_thrown([&] { hooks_.collisions(taken); });
-    };
-    if (hooks_.room_for_records)
-      listener.room = [this, keep_thrown] {
-        std::span<CollisionRecord> room;
-        keep_thrown([&] { room = hooks_.room_for_records(); });
-        return room;
-      };
-    engine().listen(std::move(listener));
+    relay_.listen_to(engine(), disk_table({ids.begin(), ids.end()}, disks_, effects_));
   }
 
   [[nodiscard]] SavingMoment saving_moment(bool ended) {
@@ -227,61 +195,18 @@ class Schedule {
             }};
   }
 
-  void list_grids() {
-    const auto put = [&](const detail::SamplingTimes& times, std::uint64_t stride, const SamplingGrid* hook) {
-      grids_.push_back({times, stride, run_.time ? times.last(*run_.time) / stride : no_limit, hook});
-    };
-    if (sampling_times_) put(*sampling_times_, 1, nullptr);
-    for (const SamplingGrid& grid : hooks_.grids) {
-      const std::optional<std::uint64_t> stride = sampling_times_ ? sampling_times_->stride(grid.step) : std::nullopt;
-      if (stride) {
-        put(*sampling_times_, *stride, &grid);
-      } else {
-        put(detail::SamplingTimes(grid.step), 1, &grid);
-      }
-    }
-  }
-
-  /// The first sample after now, of a grid that was not there when the run was saved.
-  [[nodiscard]] std::uint64_t first_after_now(const Grid& grid) const {
-    return measuring_ ? grid.times.last(engine().now().high) / grid.stride + 1 : 0;
-  }
-
-  /// `forever` where no sample is left. That of the last sample does not depend on where the run ends.
-  [[nodiscard]] static Instant time_of(const Grid& grid) {
-    return grid.k > grid.last ? forever : grid.times.at(grid.k * grid.stride);
-  }
-
-  /// `forever` where no sample is left.
-  [[nodiscard]] Instant next_sample() const {
-    Instant next = forever;
-    for (const Grid& grid : grids_) next = std::min(next, time_of(grid));
-    return next;
-  }
-
-  /// Takes the sample of every grid that has one now, all from one state. Returns false where the state is not finite, which ends
-  /// the run.
+  /// Takes the samples that are due, all from one state. Returns false where the state is not finite, which ends the run.
   bool take_samples(const Instant& when) {
-    const auto due = [&](const Grid& grid) { return !(when < time_of(grid)); };
-    const auto looks = [&](const Grid& grid) {
-      return due(grid) && (grid.hook == nullptr ? static_cast<bool>(hooks_.sample) : static_cast<bool>(grid.hook->sample));
-    };
-    const bool positions = std::ranges::any_of(
-        grids_, [&](const Grid& grid) { return looks(grid) && (grid.hook == nullptr || !grid.hook->velocities_alone); });
-    if (positions)
+    using Needed = detail::SamplingGrids::Needed;
+    const Needed needed = grids_.needed(when);
+    if (needed == Needed::state)
       engine().state(whole_);
-    else if (std::ranges::any_of(grids_, looks))
+    else if (needed == Needed::velocities)
       engine().store_velocities(moving_);
-    State& state = positions ? whole_ : moving_;
+    State& state = needed == Needed::state ? whole_ : moving_;
     state.time = when.high;  // the product itself, not what the engine's clock makes of it
     if (!is_finite(state)) return false;
-    for (Grid& grid : grids_) {
-      if (!due(grid)) continue;
-      const bool own = grid.hook == nullptr;
-      if (looks(grid)) own ? hooks_.sample(grid.k, state) : grid.hook->sample(grid.k, state, engine().totals());
-      if (own) ++result_.samples;
-      ++grid.k;
-    }
+    if (grids_.hand_out(when, state, [this] { return engine().totals(); })) ++result_.samples;
     return true;
   }
 
@@ -329,7 +254,7 @@ class Schedule {
   /// Makes the change that is due now; false where it cannot be made.
   bool change() {
     if (recording_ && take_events()) return stop(StopReason::condition);
-    hand_over_records();
+    relay_.hand_over(engine());
     if (hooks_.change) hooks_.change(false);
     try {
       make_change_();
@@ -368,7 +293,7 @@ class Schedule {
       const bool arrived = arrived_there && !(stop_at < target);
       if (stands_ && !recording_) record_events(true);  // to be able to name the disks that collide without end
       const bool is_met = recording_ && take_events();
-      hand_over_records();
+      relay_.hand_over(engine());
       if (hooks_.verify_every > 0 && since_verified_ >= hooks_.verify_every && !verify()) return false;
       if (engine().counts().pair >= next_block_) {
         if (hooks_.block) hooks_.block(progress());
@@ -455,11 +380,6 @@ class Schedule {
     return is_met;
   }
 
-  void hand_over_records() {
-    engine().hand_over_records();
-    if (thrown_) std::rethrow_exception(thrown_);
-  }
-
   void record_events(bool on) { engine().record_events(recording_ = on); }
 
   bool stop(StopReason reason) {
@@ -497,10 +417,11 @@ class Schedule {
   const RunHooks& hooks_;
   const std::function<void()> make_change_;
   bool& clock_began_;
-  const std::optional<detail::SamplingTimes> sampling_times_;
   const std::uint64_t sample_collisions_;  ///< from one sample to the next; no_limit where they are not counted so
   const std::uint64_t block_collisions_;
   const Disks& disks_;
+  detail::SamplingGrids grids_;
+  detail::CollisionRelay relay_;
   detail::Standstill standstill_;
   std::optional<detail::MovingAsOne> moving_as_one_;  ///< there always; made anew where effects change
   bool is_time_of_look_ = false;                      ///< of moving_as_one_
@@ -517,9 +438,7 @@ class Schedule {
   bool measuring_ = false;  ///< the measured run has begun
   bool ends_by_time_ = false;
   Clock::time_point last_look_ = Clock::now();
-  std::vector<Grid> grids_;
   State whole_, moving_;       ///< of samples, and of those that look at velocities alone; kept for their memory
-  std::exception_ptr thrown_;  ///< by hooks_.collisions
   std::vector<Event> events_;  ///< kept from batch to batch for its memory
   RunResult result_;
 };
