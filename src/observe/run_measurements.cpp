@@ -58,6 +58,7 @@ Energies RunMeasurements::energies(const State& state) const {
 
 /// The energy of disks and pistons, and of fields, before the change and after it. One that cannot be made gives none.
 void RunMeasurements::change(bool made) {
+  if (!made) count_redraws();
   const double energy = energies(simulation_.state()).total();
   if (made) energy_of_changes_ += energy - energy_before_change_, ++changes_;
   energy_before_change_ = energy;
@@ -126,8 +127,24 @@ bool some_change_sets(const Scene& scene, std::string_view table) {
 
 }  // namespace
 
+/// Totals do not tell who has redrawn velocities: whoever acts now has made what has come to them since the last change.
+void RunMeasurements::count_redraws() {
+  const Effects& acting = simulation_.scene().effects;
+  const Totals totals = simulation_.totals();
+  const bool is_brownian = acting.brownian && acting.brownian->rate > 0.0,
+             tumbles = acting.tumbling && acting.tumbling->rate > 0.0;
+  Redraws& mine = redraws_[is_brownian ? 2 : tumbles ? 1 : 0];
+  mine.events = totals.thermostat, mine.energy = totals.thermostat_energy;
+  for (const Redraws& other : redraws_)
+    if (&other != &mine) mine.events -= other.events, mine.energy -= other.energy;
+}
+
 void RunMeasurements::add_changes(const Scene& whole) {
   EffectsReport& report = report_.of_effects;
+  count_redraws();
+  if (report.thermostat) report.thermostat = {.events = redraws_[0].events, .energy = redraws_[0].energy};
+  if (report.tumbling) report.tumbling = {.events = redraws_[1].events};
+  if (report.brownian) report.brownian = {.events = redraws_[2].events, .energy = redraws_[2].energy};
   report_.engine_asked = simulation_.engine_reason() == detail::engine_was_asked_for ? simulation_.engine() : "auto";
   report.changes = {.made = changes_, .energy = energy_of_changes_};
   if (report.energies_end) report.energies_end = energies(simulation_.state());

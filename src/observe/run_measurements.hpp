@@ -7,6 +7,8 @@
 
 #include <carom/simulation.hpp>
 
+#include <array>
+
 namespace carom {
 
 class RunMeasurements {
@@ -28,12 +30,14 @@ class RunMeasurements {
     archive(report_.energy_initial, report_.energy_scale, report_.momentum_initial, report_.max_relative_overlap,
             report_.overlap_checked, report_.overlap_at_start, virial_, virial_over_kinetic_, kinetic_, seen_temperature_,
             seen_time_, temperature_sum_, effect_means_, samples_, energy_of_changes_, changes_);
+    for (Redraws& redraws : redraws_) archive(redraws.events, redraws.energy);
   }
 
  private:
   [[nodiscard]] Energies energies(const State& state) const;
   void look_for_overlap(const State& state);
   void add_kinetic(double time, double temperature);
+  void count_redraws();
   void add_changes(const Scene& whole);
   void measure_Z(const RunResult& result, double temperature);
 
@@ -49,6 +53,14 @@ class RunMeasurements {
   double energy_of_changes_ = 0.0;     ///< given by the scene's changes
   std::uint64_t changes_ = 0;          ///< made
   double energy_before_change_ = 0.0;  ///< of the change that is being made
+
+  /// Velocities redrawn, and the energy given by it: by the thermostat, by tumbling and by Brownian motion, of which one acts at
+  /// most between two changes.
+  struct Redraws {
+    std::uint64_t events = 0;
+    double energy = 0.0;
+  };
+  std::array<Redraws, 3> redraws_ = {};
 };
 
 }  // namespace carom

@@ -227,6 +227,26 @@ TEST(RunMeasurements, AFloorThatAChangeStopsLeavesTheZeroOfHeightsWhereItWas) {
   EXPECT_NEAR(report.of_effects.packing_fraction_end.value(), scene.packing_fraction() * scene.box.area() / larger, 1e-15);
 }
 
+TEST(RunMeasurements, RedrawsAreCountedForWhoeverActed) {
+  Scene scene = gas_scene(16, 0.1, Boundary::periodic);
+  scene.run.time = 2.0;
+  scene.effects.thermostat = Thermostat{.temperature = 1.0, .rate = 0.0};
+  scene.changes = {{0.5, SetKeys{{"thermostat.rate=2"}}},
+                   {1.0, SetKeys{{"thermostat.rate=0", "tumbling.rate=3"}}},
+                   {1.5, SetKeys{{"tumbling.rate=0", "brownian.temperature=1", "brownian.rate=10"}}}};
+  const RunReport report = measure(scene).report;
+  const EffectsReport& effects = report.of_effects;
+  EXPECT_NEAR(static_cast<double>(effects.thermostat->events), 16.0, 5.0 * 4.0);  // 16 disks, rate 2, for 0.5
+  EXPECT_GT(effects.thermostat->events, 0U);
+  EXPECT_NEAR(static_cast<double>(effects.tumbling->events), 24.0, 5.0 * 4.9);
+  EXPECT_GT(effects.tumbling->events, 0U);
+  EXPECT_EQ(effects.brownian->events % 16, 0U);  // all disks at once, at equal steps of 0.1
+  EXPECT_NEAR(static_cast<double>(effects.brownian->events), 5.0 * 16.0, 16.0);
+  EXPECT_EQ(effects.thermostat->events + effects.tumbling->events + effects.brownian->events, report.totals.thermostat);
+  EXPECT_NEAR(effects.thermostat->energy + effects.brownian->energy, report.energy_final - report.energy_initial,
+              1e-12 * report.energy_initial);
+}
+
 TEST(RunMeasurements, ADeeplyOverlappingStateIsReported) {
   Scene scene = gas_scene(16, 0.3, Boundary::periodic);
   scene.run.time = 0.0;
