@@ -64,6 +64,9 @@ H5mdObservables::H5mdObservables(hid_t file, const Scene& scene, const Disks& di
     const Box now = box_of(s.box, s.state);
     copy(std::array{now.lower.x(), now.upper.x(), now.lower.y(), now.upper.y()}, row);
   });
+  put(walls_move, "wall_velocity", {4}, [](const Sample& s, Row row) {
+    for (std::size_t k = 0; k < std::min(row.size(), s.state.walls.size()); ++k) row[k] = s.state.walls[k].velocity;
+  });
   const bool radii_change = any_present(effects_, &EffectTraits::changes_radii);
   put(radii_change, "scale", {}, [](const Sample& s, Row row) { row[0] = s.state.scale; });
   put(walls_move || radii_change, "packing_fraction", {},

@@ -156,6 +156,14 @@ State RunReader::sample(std::uint64_t k) const {
         state.images(axis, static_cast<Eigen::Index>(i)) =
             static_cast<std::int64_t>(images[3 * i + static_cast<std::size_t>(axis)]);
     for (const double wall : observable("walls", k, 4)) state.walls.push_back({wall, 0.0});
+    const std::vector<double> of_walls = observable("wall_velocity", k, 4);
+    for (std::size_t side = 0; side < std::min(of_walls.size(), state.walls.size()); ++side)
+      state.walls[side].velocity = of_walls[side];
+    for (const double bonds : observable("bonds", k, 1)) state.bonds = static_cast<std::uint64_t>(bonds);
+    if (scene_.effects.square_well) state.pairs_in_steps = {state.bonds};
+    if (scene_.effects.stepped_potential)
+      for (const double pairs : observable("pairs_in_steps", k, scene_.effects.potential_steps().size()))
+        state.pairs_in_steps.push_back(static_cast<std::uint64_t>(pairs));
     for (const double scale : observable("scale", k, 1)) state.scale = scale;
     for (const double displacement : observable("shear_displacement", k, 1)) state.shear_displacement = displacement;
     if (const std::vector<double> spins = observable("spin", k, count); !spins.empty())

@@ -79,6 +79,12 @@ Eigen::Vector2d Replay::velocity(std::size_t disk, double time) const {
   return flights_[disk].velocity + acceleration_ * (time - flights_[disk].time);
 }
 
+double Replay::wall_position(std::size_t side, double time) const {
+  const Side& wall = sides_[side];
+  const double dt = time - wall.time;
+  return wall.position + (wall.velocity + 0.5 * wall.acceleration * dt) * dt;
+}
+
 double Replay::kinetic_energy(double time) const {
   double sum = 0.0;
   for (std::size_t i = 0; i < flights_.size(); ++i) sum += 0.5 * disks_->mass[i] * velocity(i, time).squaredNorm();
@@ -95,7 +101,7 @@ void Replay::push(std::size_t side, std::size_t disk, double time, const Eigen::
   const double given = disks_->mass[disk] * (this->velocity(disk, time)[axis] - velocity[axis]);
   Side& piston = sides_[side];
   const double dt = time - piston.time;
-  piston.position += (piston.velocity + 0.5 * piston.acceleration * dt) * dt;
+  piston.position = wall_position(side, time);
   piston.velocity += piston.acceleration * dt + given / piston_mass_[side];
   piston.time = time;
 }
@@ -130,6 +136,9 @@ double distance_from_samples(const Scene& scene, Replay replay, const std::vecto
       const Eigen::Vector2d apart = replay.position(static_cast<std::size_t>(i), state.time) - state.positions.col(i);
       farthest = std::max(farthest, nearest_image(scene.box, apart).norm());
     }
+    for (std::size_t side = 0; side < state.walls.size(); ++side)
+      if (scene.effects.walls[side].mass)
+        farthest = std::max(farthest, std::abs(replay.wall_position(side, state.time) - state.walls[side].position));
   }
   return farthest;
 }

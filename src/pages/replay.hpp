@@ -36,6 +36,8 @@ class Replay {
     double time = 0.0, position = 0.0, velocity = 0.0, acceleration = 0.0;  ///< along its axis
   };
   [[nodiscard]] const std::array<Side, 4>& sides() const { return sides_; }
+  /// Requires a time not before the last change of its motion, and a wall that does not vibrate.
+  [[nodiscard]] double wall_position(std::size_t side, double time) const;
 
  private:
   struct Flight {

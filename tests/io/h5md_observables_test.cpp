@@ -61,7 +61,7 @@ TEST_F(H5mdObservables, AreThereForWhatTheSceneNames) {
   EXPECT_THAT(H5Reader(write(scene_with_effects(2, 1), 2)).members("/observables"),
               ElementsAre("bonds", "kinetic_energy", "packing_fraction", "pair_collisions", "piston_energy", "potential_energy",
                           "scale", "spin", "spin_energy", "spin_temperature", "temperature", "total_energy", "virial",
-                          "wall_energy", "wall_impulse", "walls", "well_passages"));
+                          "wall_energy", "wall_impulse", "wall_velocity", "walls", "well_passages"));
   Scene sheared = scene_of(2, 1);
   sheared.effects.shear = Shear{.rate = 0.5};
   EXPECT_THAT(H5Reader(write(sheared, 2)).members("/observables"),
@@ -80,6 +80,7 @@ TEST_F(H5mdObservables, AreMeasuredOnEverySample) {
     const State state = state_with_effects_at(k, scene);
     for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(value("spin")[3 * k + i], state.spins[static_cast<Eigen::Index>(i)]);
     for (std::size_t side = 0; side < 4; ++side) EXPECT_EQ(value("walls")[4 * k + side], state.walls[side].position);
+    for (std::size_t side = 0; side < 4; ++side) EXPECT_EQ(value("wall_velocity")[4 * k + side], state.walls[side].velocity);
     EXPECT_EQ(value("scale")[k], state.scale);
     EXPECT_EQ(value("bonds")[k], static_cast<double>(state.bonds));
     EXPECT_EQ(value("packing_fraction")[k], packing_fraction(scene.box, disks, state));

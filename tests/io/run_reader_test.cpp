@@ -74,6 +74,32 @@ class RunReaderTest : public ::testing::Test {
   fs::path run_ = directory_.path() / "run";
 };
 
+TEST_F(RunReaderTest, GivesWhatPistonsAndPairPotentialsKeep) {
+  for (const char* potential :
+       {"square_well={ width = 1.4, depth = 0.5 }",
+        "stepped_potential={ steps = [{ width = 1.2, energy = 0.5 }, { width = 1.5, energy = -0.3 }] }"}) {
+    const std::vector<std::string> overrides = {"walls.top={ mass = 5.0, load = 0.5 }", "run.equilibrate={ time = 1.0 }",
+                                                potential};
+    const RunReader reader(recorded(overrides));
+    Simulation simulation = make_simulation(parse_scene(mixture, "mixture", overrides));
+    RunHooks hooks;
+    std::uint64_t moving = 0, bound = 0;
+    hooks.sample = [&](std::uint64_t k, const State& expected) {
+      const State state = reader.sample(k);
+      EXPECT_EQ(state.walls[3].position, expected.walls[3].position);
+      EXPECT_EQ(state.walls[3].velocity, expected.walls[3].velocity);
+      EXPECT_EQ(state.bonds, expected.bonds);
+      EXPECT_EQ(state.pairs_in_steps, expected.pairs_in_steps);
+      if (state.walls[3].velocity != 0.0) ++moving;
+      bound += state.bonds;
+    };
+    run_schedule(simulation, hooks);
+    EXPECT_EQ(moving, 13U);
+    EXPECT_GT(bound, 0U);
+    fs::remove_all(run_);
+  }
+}
+
 TEST_F(RunReaderTest, GivesStatesAndEventsOfTheEngineBitByBit) {
   const RunReader reader(recorded());
   Simulation simulation = make_simulation(parse_scene(mixture));
@@ -89,6 +115,7 @@ TEST_F(RunReaderTest, GivesStatesAndEventsOfTheEngineBitByBit) {
     EXPECT_EQ(state.velocities, expected.velocities);
     ASSERT_EQ(state.walls.size(), 4U);
     EXPECT_EQ(state.walls[3].position, expected.walls[3].position);
+    EXPECT_EQ(state.walls[3].velocity, 0.25);
     for (const Event& event : simulation.take_events()) events.push_back(event);
   }
   const std::vector<Event> log = reader.event_log();

@@ -88,13 +88,23 @@ TEST(Replay, PistonsAreWhereTheEngineHasThem) {
   for (const State& state : run.samples) {
     for (; next < run.events.size() && run.events[next].time <= state.time; ++next) replay.apply(run.events[next]);
     for (std::size_t side = 0; side < 4; ++side) {
-      const Replay::Side& now = replay.sides()[side];
-      const double dt = state.time - now.time;
       // Each hit rounds the momentum by some units of it, and 8 units of time carry that on.
-      EXPECT_NEAR(now.position + (now.velocity + 0.5 * now.acceleration * dt) * dt, state.walls[side].position, 8 * rounding);
+      EXPECT_NEAR(replay.wall_position(side, state.time), state.walls[side].position, 8 * rounding);
     }
   }
   EXPECT_NE(run.samples.back().walls[1].position, 8.0);
+}
+
+TEST(Replay, APistonThatIsElsewhereIsFound) {
+  const Recorded run = recorded(gas_in("\"walls\"", "[walls]\nright = { mass = 10.0, load = 1.0 }"));
+  const auto farthest = [&](const State& start) {
+    return distance_from_samples(run.scene, Replay(run.scene, run.disks, start), run.events, run.samples.size(),
+                                 [&](std::uint64_t k) { return run.samples[k]; });
+  };
+  State start = run.samples[0];
+  EXPECT_LT(farthest(start), 8 * rounding);
+  start.walls[1].velocity += 0.25;
+  EXPECT_NEAR(farthest(start), 0.25 * run.samples.back().time, 8 * rounding);
 }
 
 TEST(Replay, SaysWhatTheLogDoesNotHold) {
