@@ -91,6 +91,22 @@ TEST(Horizon, GrowsWithThePrecision) {
                     HasSubstr("). With 113 bits it is right until about t = "), HasSubstr("times the cost")));
 }
 
+TEST(Horizon, WithoutAnExponentTheBestPrecisionHasALowerBound) {
+  Horizon horizon;
+  horizon.tolerance = 1e-3;
+  horizon.engine = "textbook";
+  horizon.time = 10.96;
+  horizon.collisions_per_disk = 27.0;
+  horizon.ended = HorizonEnd::parted;
+  horizon.rows.resize(2);
+  horizon.rows[0].engine = "textbook";
+  horizon.rows[0].bits = 53;
+  horizon.rows[0].time = 10.9;
+  horizon.rows[1].engine = "textbook-quad";
+  horizon.rows[1].bits = 113;
+  EXPECT_THAT(sentence_of(horizon), HasSubstr(" With 113 bits it is right at least until t = 10.96 (27 collisions per disk)"));
+}
+
 TEST(Horizon, IsTheSameEveryTime) {
   const Horizon a = horizon_of(gas());
   const Horizon b = horizon_of(gas());

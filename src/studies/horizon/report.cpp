@@ -35,7 +35,7 @@ std::string why_ended(const Horizon& horizon) {
   const std::string where = place(horizon.time, horizon.collisions_per_disk);
   switch (horizon.ended) {
     case HorizonEnd::parted:
-      return "until " + where;
+      return "at least until " + where;
     case HorizonEnd::run:
       if (horizon.run_time && horizon.time > *horizon.run_time)
         return fmt::format("to the end of the run and beyond, at least until {}", where);
