@@ -25,6 +25,10 @@ constexpr double pi = std::numbers::pi;
 using theory::densest_finite, theory::densest_fluid;
 constexpr int line_points = 200;
 
+/// Returns whether a periodic box is so wide that the shape of it matters less than 0.6 % to Z, at packing fractions up to 0.6
+/// (144 disks; 60 up to 0.4): in a narrower one disks meet images of their own neighbours.
+bool is_wide(const Box& box, double sigma, double eta) { return box.lengths().minCoeff() >= (eta <= 0.45 ? 4.0 : 6.0) * sigma; }
+
 /// Even steps over the first column of a table, beginning above zero.
 std::vector<double> steps_over(const Table& table) {
   const std::vector<double>& x = table.columns.front().values;
@@ -41,7 +45,8 @@ std::optional<Expected> contact_value(const std::string& scalar, const TheorySou
   const std::vector<double>& radius = of.disks.radius;
   const bool is_fluid = scene.box.periodic(0) && scene.box.periodic(1) && scene.effects.neutral() &&
                         scene.effects.collision.rule == CollisionRule::specular && eta <= densest_fluid;
-  if (!is_fluid || radius.size() < 3) return {};
+  if (!is_fluid || radius.size() < 3 || !is_wide(scene.box, 2.0 * *std::max_element(radius.begin(), radius.end()), eta))
+    return {};
   const ObservedRun run{scene, of.disks};
   std::vector<double> counts(run.species_count()), radii(run.species_count());
   for (std::size_t i = 0; i < radius.size(); ++i) {
@@ -87,7 +92,8 @@ RunTheory::RunTheory(const RunReport& report, std::optional<TheorySource> source
   const bool is_moving = report_.measured && kT_ > 0.0 && std::isfinite(kT_);
   const bool is_equal = disks.count() > 2 && all_equal(disks.radius) && all_equal(disks.mass);
   const bool is_periodic = scene.box.periodic(0) && scene.box.periodic(1);
-  is_plain_ = is_moving && is_equal && is_periodic && scene.effects.neutral();
+  const bool is_narrow = is_equal && is_periodic && !is_wide(scene.box, 2.0 * disks.radius.front(), eta_);
+  is_plain_ = is_moving && is_equal && is_periodic && scene.effects.neutral() && !is_narrow;
   is_smooth_ = is_plain_ && scene.effects.collision.rule == CollisionRule::specular;
   if (disks.count() > 0) {
     mass_ = disks.mass.front();  // of all, wherever they are used
@@ -99,10 +105,12 @@ RunTheory::RunTheory(const RunReport& report, std::optional<TheorySource> source
   }
   if (is_plain_)
     find_Z();
+  else if (is_narrow)
+    why_not_Z_ = "No theory is given: the box is so narrow that disks meet images of their own neighbours.";
   else
     why_not_Z_ =
-        "No theory is given: equations of state hold for equal elastic disks in a periodic box on which nothing else "
-        "acts.";
+        "No theory is given: equations of state hold for three or more equal elastic disks in a periodic box on which nothing "
+        "else acts.";
 }
 
 void RunTheory::find_Z() {
@@ -124,6 +132,10 @@ void RunTheory::find_velocities() {
   const ObservedRun run{source_->scene, source_->disks};
   const bool x = run.conserves_momentum(0), y = run.conserves_momentum(1);
   conserves_momentum_ = x && y;
+  const Eigen::Vector2d common = report_.momentum_initial.cwiseProduct(Eigen::Vector2d(x ? 1.0 : 0.0, y ? 1.0 : 0.0));
+  const double energy = common.squaredNorm() / (2.0 * source_->disks.total_mass());
+  moves_as_a_whole_ = energy > 1e-12 * static_cast<double>(report_.disks) * kT_;
+  if (moves_as_a_whole_) return;
   const bool is_fixed = effects.neutral() && x == y;
   velocities_ = is_fixed ? Velocities::fixed_energy : Velocities::maxwell;
   kT_ = effects.bath_temperature().value_or(kT_);
@@ -178,6 +190,7 @@ std::vector<TheoryCurve> RunTheory::flight_curves(const Table& table) const {
   const double free_time = unit_of_time_ / theory::disk_collision_rate(eta_, report_.disks);
   const double free_path = free_time * std::sqrt(kT_ / mass_);  // thermal velocities times mean free times
   const bool of_times = table.name == "free_times";
+  if (!of_times && moves_as_a_whole_) return {};
   const double scale = of_times ? free_time : free_path;
   const double mean = of_times ? 1.0 : std::sqrt(0.5 * pi);
   TheoryCurve law{.name = "dilute gas, summed over speeds"}, plain{.name = "exponential", .dashed = true};
@@ -307,7 +320,7 @@ std::optional<Expected> RunTheory::of(const std::string& observable, const std::
   const double rate = theory::disk_collision_rate(eta_, report_.disks) / unit_of_time_;
   if (name == "collision_rate.rate") return Expected{rate, Z_->source};
   if (name == "free_flight.mean_free_time") return Expected{1.0 / rate, Z_->source};
-  if (name == "free_flight.mean_free_path")
+  if (name == "free_flight.mean_free_path" && !moves_as_a_whole_)
     return Expected{sigma_ * theory::mean_free_path(eta_) * (theory::kolafa_rottner(eta_) - 1.0) / (Z_->value - 1.0) *
                         std::sqrt(1.0 - 1.0 / disks),
                     Z_->source};

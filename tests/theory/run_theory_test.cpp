@@ -58,5 +58,52 @@ TEST(TheoryOfContactValues, IsGivenOnlyWhereNothingElseActs) {
   EXPECT_FALSE(contact_value("g_heavy_light", 0.5, "[square_well]\nwidth = 1.5\ndepth = 1.0\n"));
 }
 
+/// Theory of 60 disks at packing fraction 0.3 in a periodic box of this height, all together as fast along x as `common`.
+struct PlainGas {
+  explicit PlainGas(double height, double common = 0.0)
+      : scene(parse_scene(fmt::format(
+            "[box]\nx = [0.0, {}]\ny = [0.0, {}]\nboundary = \"periodic\"\n[[disks]]\ncount = 60\nradius = 0.5\nmass = 2.0\n"
+            "positions = \"random\"\nvelocities = {{ temperature = 1.0 }}\n[collision]\nrule = \"specular\"\n[run]\ntime = 1.0\n",
+            60.0 * std::numbers::pi * 0.25 / 0.3 / height, height))),
+        disks(all_disks(scene)) {
+    report.disks = 60;
+    report.packing_fraction = scene.packing_fraction();
+    report.temperature_mean = 1.0;
+    report.measured = true;
+    report.momentum_initial = {120.0 * common, 0.0};
+  }
+  [[nodiscard]] std::optional<Expected> of(const std::string& observable, const std::string& scalar) const {
+    return RunTheory(report, TheorySource{scene, disks, 1}).of(observable, scalar);
+  }
+
+  Scene scene;
+  Disks disks;
+  RunReport report;
+};
+
+TEST(RunTheory, OfABoxThatIsWideEnoughIsGiven) {
+  const PlainGas wide(4.5), narrow(3.5);
+  for (const char* name : {"Z", "Z_rate"}) {
+    EXPECT_TRUE(wide.of("pressure", name)) << name;
+    EXPECT_FALSE(narrow.of("pressure", name)) << name;
+  }
+  EXPECT_TRUE(wide.of("contact_values", "g"));
+  EXPECT_FALSE(narrow.of("contact_values", "g"));
+  EXPECT_NE(RunTheory(narrow.report, TheorySource{narrow.scene, narrow.disks, 1}).why_not_Z().find("so narrow"),
+            std::string::npos);
+}
+
+TEST(RunTheory, OfSpeedsAndPathsIsThatOfDisksWhichTogetherAreAtRest) {
+  const PlainGas at_rest(10.0, 1e-9), moving(10.0, 3.0);
+  EXPECT_TRUE(at_rest.of("velocity_moments", "speed"));
+  EXPECT_FALSE(moving.of("velocity_moments", "speed"));
+  EXPECT_TRUE(at_rest.of("free_flight", "mean_free_path"));
+  EXPECT_FALSE(moving.of("free_flight", "mean_free_path"));
+  for (const PlainGas* gas : {&at_rest, &moving}) {
+    EXPECT_TRUE(gas->of("free_flight", "mean_free_time")) << "times are those of any common motion";
+    EXPECT_TRUE(gas->of("pressure", "Z"));
+  }
+}
+
 }  // namespace
 }  // namespace carom::test
