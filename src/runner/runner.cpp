@@ -94,10 +94,11 @@ double Runner::wall_seconds() const {
   return (from_ != nullptr ? from_->facts().wall_seconds : 0.0) + seconds_since(options_.began);
 }
 
-/// A run that is stopped is always saved; others as the plan says, and then at their end too.
+/// A run that is stopped is always saved; others as the plan says, and then at their end too. One that went on from a checkpoint
+/// leaves none in its directory that is older than its end.
 bool Runner::is_due(const SavingMoment& moment) const {
   if (directory_ == nullptr) return false;
-  if (moment.ended) return stopped_ || plan_;
+  if (moment.ended) return stopped_ || plan_ || from_ != nullptr;
   if (extended_ && !saved_) return true;  // another end is known from now on
   if (!plan_) return false;
   if (plan_->seconds) return seconds_since(last_saved_) >= *plan_->seconds;

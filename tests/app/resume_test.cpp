@@ -78,6 +78,9 @@ TEST_F(Resume, AfterASignalItSaysHow) {
   EXPECT_EQ(json::parse(text_of(file("stopped/summary.json")))["stopped"], "interrupted");
   EXPECT_EQ(carom({"resume", "stopped", "-q"}).exit_code, 0);
   expect_same_files("whole", "stopped");
+  // The checkpoint of before the end would lead there again, and perhaps to another end.
+  refused({"resume", "stopped"}, "this run has come to its end; carom extend takes it to a later one");
+  EXPECT_EQ(carom({"extend", "stopped", "-q", "--collisions", "121000"}).exit_code, 0);
 }
 
 TEST_F(Resume, AfterItsWalltimeAgainAndAgain) {
