@@ -42,12 +42,11 @@ class OpenCollisions {
   [[nodiscard]] const Numbered& next() const { return open_.front(); }
   /// Removes a collision of these partners at the time of the next one. Returns whether there is one.
   bool remove(const Event& like) {
-    const auto later = [&](const Numbered& one) { return one.event.time != next().event.time; };
-    const auto end = std::find_if(open_.begin(), open_.end(), later);
-    const auto found = std::find_if(open_.begin(), end, [&](const Numbered& one) {
-      return one.event.disk == like.disk && one.event.partner == like.partner;
+    const double time = next().event.time;
+    const auto found = std::find_if(open_.begin(), open_.end(), [&](const Numbered& one) {
+      return one.event.time != time || (one.event.disk == like.disk && one.event.partner == like.partner);
     });
-    if (found == end) return false;
+    if (found == open_.end() || found->event.time != time) return false;
     open_.erase(found);
     refill();
     return true;
