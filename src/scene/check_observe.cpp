@@ -195,7 +195,10 @@ void check_observe(const Scene& scene) {
     if (!one_of(request.name, {"viscosity", "heat_conductivity"})) continue;
     if (const std::string_view why = what_spoils_transport(scene); !why.empty())
       refuse_observable(request, fmt::format("has no meaning here: {}", why));
-    if (request.name == "heat_conductivity" && !(equal_masses(scene) && radii_of(scene).equal()))
+    const std::vector<std::string> acting = scene.effects.acting();
+    const bool is_additive = std::find(acting.begin(), acting.end(), "non_additivity") == acting.end();
+    const bool is_mixture = !equal_masses(scene) || !radii_of(scene).equal() || !is_additive;
+    if (request.name == "heat_conductivity" && is_mixture)
       refuse_observable(request,
                         "is measured for disks of one mass and size only: in a mixture heat also goes with diffusion; "
                         "remove it, or make all disks equal");
