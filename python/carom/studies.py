@@ -560,7 +560,7 @@ _UNITS_OF_RUNS = {
 _IN_PYTHON = {
     "carom validate --list": "carom.validation_trials()",
     "carom hardcases --list": "carom.hard_case_names()",
-    "--play draws straight flights": "the page draws straight flights",
+    "--play shows disks": "the page shows disks",
     ", or leave --play out": "",
 }
 

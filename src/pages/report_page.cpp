@@ -216,7 +216,7 @@ ReportFile report_of(const std::filesystem::path& directory, const MoreOnAccurac
   const RunRecord record = read_run_record(directory);
   std::optional<PlayerData> player;
   if (record.source && record.source->samples > 0) player = player_data(RunReader(directory), report_limits);
-  const std::string words = !player         ? "no replay: the run stored no samples"
+  const std::string words = !player         ? "no replay: the run kept no samples in a trajectory"
                             : player->exact ? "with an exact replay"
                                             : "with a replay interpolated between samples: " + player->why_not;
   return {html_page(report_page(record, player, more)), words};

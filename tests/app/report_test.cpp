@@ -81,7 +81,7 @@ TEST_F(ReportCommand, AlsoOfARunThatKeptNothingButItsSummary) {
   ASSERT_EQ(carom({"run", "gas.toml", "--no-trajectory", "-q"}).exit_code, 0);
   const Outcome outcome = carom({"report", "gas"});
   EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_THAT(outcome.out, EndsWith(", no replay: the run stored no samples\n"));
+  EXPECT_THAT(outcome.out, EndsWith(", no replay: the run kept no samples in a trajectory\n"));
 }
 
 TEST_F(ReportCommand, TellsTheHorizonThatTheRunWasAskedFor) {

@@ -266,7 +266,7 @@ def test_a_hard_case_of_ones_own_may_fail(tmp_path):
         (lambda scene: carom.beside(scene, "naive:100"), "method=naive:100: the scene's run ends at time 10, within"),
         (
             lambda scene: carom.beside({**scene, "gravity": {"acceleration": (0, -1)}}),
-            "the page draws straight flights, and this scene asks for gravity",
+            "the page shows disks on which nothing acts but the collision rule, and this scene asks for gravity",
         ),
         (lambda scene: carom.validate(only="presure"), "only=presure: there is no such trial and no such group; carom.validation_trials() names"),
         (lambda scene: carom.validate(seed=10**13), "seed=10000000000000: it can be 0 to 9000000000000"),

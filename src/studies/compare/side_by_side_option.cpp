@@ -29,8 +29,10 @@ double step_in(const std::string& text, const std::string& number) {
 
 PlayChoice checked_play(const std::string& text, const Scene& scene, std::optional<double> stiffness) {
   if (!scene.effects.neutral())
-    throw UsageError(fmt::format("{}: --play draws straight flights, and this scene asks for {}; leave one of the two out",
-                                 scene.source, words_beyond_the_rule(scene.effects)));
+    throw UsageError(
+        fmt::format("{}: --play shows disks on which nothing acts but the collision rule, and this scene asks for {}; leave one "
+                    "of the two out",
+                    scene.source, words_beyond_the_rule(scene.effects)));
   PlayChoice choice;
   const std::size_t colon = text.find(':');
   if (!text.empty()) choice.method = text.substr(0, colon);
