@@ -88,6 +88,15 @@ std::size_t faster_inward(const Effects& effects, std::size_t lower) {
   return velocity_of(effects.walls[lower]) >= -velocity_of(effects.walls[lower + 1]) ? lower : lower + 1;
 }
 
+/// Returns whether walls that come so close leave room for a disk: so that the number of its bounces, which goes as one over what
+/// is left, stays that of seconds. As for a disk that grows.
+bool leave_room(double gap, double diameter) { return gap > 0.0 && gap >= (1.0 + 0x1p-16) * diameter; }
+
+/// Returns what ends the sentence about a gap that does not.
+const char* why_no_room(double gap, double diameter) {
+  return gap >= diameter ? ", and would bounce ever faster in so little room" : "";
+}
+
 /// Walls that vibrate may come together far before the end, so the run has to leave room for it at any time.
 void check_vibrating_gap(const Scene& scene, int axis) {
   const std::size_t lower = 2 * static_cast<std::size_t>(axis);
@@ -96,12 +105,12 @@ void check_vibrating_gap(const Scene& scene, int axis) {
   if (!(reach > 0.0)) return;
   const double closing = std::max(velocity_of(walls[lower]) - velocity_of(walls[lower + 1]), 0.0) * duration(scene.run);
   const double diameter = 2.0 * radii_of(scene).largest, gap = scene.box.lengths()[axis] - closing - reach;
-  if (gap > 0.0 && gap >= diameter) return;
+  if (leave_room(gap, diameter)) return;
   const std::size_t wall = walls[lower].oscillation ? lower : lower + 1;
   throw Refusal(path_of(wall) + ".vibration",
                 fmt::format("with their vibration the walls would leave {:.6g} between {} and {}, but the largest disk is {:.6g} "
-                            "across; make the amplitude smaller, or the box larger",
-                            gap, wall_names[lower], wall_names[lower + 1], diameter));
+                            "across{}; make the amplitude smaller, or the box larger",
+                            gap, wall_names[lower], wall_names[lower + 1], diameter, why_no_room(gap, diameter)));
 }
 
 void check_gap(const Scene& scene, int axis) {
@@ -111,14 +120,15 @@ void check_gap(const Scene& scene, int axis) {
   const double time = duration(scene.run);
   const double diameter = 2.0 * radii_of(scene).largest;
   const double gap = scene.box.lengths()[axis] - closing * time;
-  if (gap > 0.0 && gap >= diameter) return;
+  if (leave_room(gap, diameter)) return;
   const std::size_t wall = faster_inward(scene.effects, lower);
-  const double room = (scene.box.lengths()[axis] - diameter) / closing;
+  const double room = (scene.box.lengths()[axis] - (1.0 + 0x1p-16) * diameter) / closing;
   throw Refusal(
       path_of(wall),
       fmt::format("within a time of {:.6g} the moving walls would leave {:.6g} between {} and {}, but the largest disk is {:.6g} "
-                  "across; make walls.{} slower, or let them move for less than {:.6g}",
-                  time, gap, wall_names[lower], wall_names[lower + 1], diameter, wall_names[wall], room));
+                  "across{}; make walls.{} slower, or let them move for less than {:.6g}",
+                  time, gap, wall_names[lower], wall_names[lower + 1], diameter, why_no_room(gap, diameter), wall_names[wall],
+                  room));
 }
 
 void check_vibrating_sweep(const Scene& scene, std::size_t w) {

@@ -36,6 +36,7 @@ class MovingAsOne {
     State state;
     engine.store_velocities(state);
     next_time_ = time_after(engine.now(), state);
+    relative_at_begin_ = motion_of(state).relative;
   }
 
   /// The number of collisions of pairs, and the time, at which reached() looks next: the same wherever else the run stops, and on
@@ -45,9 +46,9 @@ class MovingAsOne {
   }
   [[nodiscard]] const Instant& time_of_look() const { return next_time_; }
 
-  /// Whether disks move together more than 2^14 times as fast, in the mean, as they move otherwise. Looks at all disks where few
-  /// of the events since the last look were collisions, or none. `timely`: the run has come to time_of_look(), which the clock of
-  /// an engine may round.
+  /// Whether disks move together more than 2^14 times as fast, in the mean, as they move otherwise, and have lost half of that
+  /// since the run began, or never had any. Looks at all disks where few of the events since the last look were collisions, or
+  /// none. `timely`: the run has come to time_of_look(), which the clock of an engine may round.
   [[nodiscard]] bool reached(const AnyEngine& engine, bool timely) {
     if (!can_be()) return false;
     const std::uint64_t pairs = engine.counts().pair, events = all_events(engine.counts());
@@ -66,7 +67,7 @@ class MovingAsOne {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(next_collisions_, next_time_, events_then_, pairs_then_);
+    archive(next_collisions_, next_time_, events_then_, pairs_then_, relative_at_begin_);
   }
 
  private:
@@ -78,7 +79,11 @@ class MovingAsOne {
     const double time = 10.0 * sides_ / fastest;
     return std::isfinite(time) ? now.plus(time) : forever;
   }
-  [[nodiscard]] bool move_together(const State& state) const {
+  /// Mean speeds, along both axes together.
+  struct Motion {
+    double common, relative;
+  };
+  [[nodiscard]] Motion motion_of(const State& state) const {
     const double mass = disks_.total_mass();
     Eigen::Vector2d common = Eigen::Vector2d::Zero();
     for (Eigen::Index i = 0; i < state.velocities.cols(); ++i) common += share(i, mass) * state.velocities.col(i);
@@ -87,18 +92,24 @@ class MovingAsOne {
     double otherwise = 0.0;
     for (Eigen::Index i = 0; i < state.velocities.cols(); ++i)
       otherwise += share(i, mass) * (state.velocities.col(i) - common).cwiseAbs().sum();
-    return otherwise < 0x1p-14 * common.cwiseAbs().sum();
+    return {common.cwiseAbs().sum(), otherwise};
+  }
+  [[nodiscard]] bool move_together(const State& state) const {
+    const Motion now = motion_of(state);
+    const bool has_lost = now.relative < 0.5 * relative_at_begin_ || now.relative < 0x1p-40 * now.common;
+    return has_lost && now.relative < 0x1p-14 * now.common;
   }
   [[nodiscard]] double share(Eigen::Index i, double mass) const { return disks_.mass[static_cast<std::size_t>(i)] / mass; }
 
   const Disks& disks_;
-  double sides_;                   ///< of the box, together
-  std::uint64_t window_;           ///< collisions of pairs from one look to the next
-  std::uint64_t next_collisions_;  ///< of pairs, at the next look
-  Instant next_time_ = forever;    ///< of the next look at whether there were any
-  std::uint64_t events_then_;      ///< at the last look by collisions
-  std::uint64_t pairs_then_;       ///< at the last look by time
-  bool kept_[2];                   ///< momentum along an axis, by disks that lose energy
+  double sides_;                    ///< of the box, together
+  std::uint64_t window_;            ///< collisions of pairs from one look to the next
+  std::uint64_t next_collisions_;   ///< of pairs, at the next look
+  Instant next_time_ = forever;     ///< of the next look at whether there were any
+  std::uint64_t events_then_;       ///< at the last look by collisions
+  std::uint64_t pairs_then_;        ///< at the last look by time
+  double relative_at_begin_ = 0.0;  ///< mean speed
+  bool kept_[2];                    ///< momentum along an axis, by disks that lose energy
 };
 
 }  // namespace carom::detail

@@ -264,6 +264,7 @@ class Schedule {
     }
     engine().record_events(recording_);
     listen();
+    standstill_.begin(engine());
     moving_as_one_.emplace(engine(), scene_, disks_, block_collisions_);
     without_collision_ = 0;
     if (hooks_.change) hooks_.change(true);
@@ -279,7 +280,8 @@ class Schedule {
       }
       if (hooks_.checkpoint) hooks_.checkpoint(saving_moment(false));
       // Here, and not where a stretch ends: a look that falls on a sample comes after it.
-      if (const auto reason = standstill_.reached(engine(), end_)) return stop_at_standstill(*reason);
+      const detail::RunEnd end = {std::min(end_.time, next_change()), end_.collisions};
+      if (const auto reason = standstill_.reached(engine(), end)) return stop_at_standstill(*reason);
       if (!ends_by_time_ && moving_as_one_->reached(engine(), std::exchange(is_time_of_look_, false)))
         return stop(StopReason::cooled);
       std::uint64_t pair_limit = std::min({collisions, next_block_, standstill_.collisions_at_look()});

@@ -45,8 +45,14 @@ class Standstill {
     begin(engine);
   }
 
-  /// The run begins anew, after the clock was reset.
+  /// The run begins anew, after the clock was reset or effects have changed.
   void begin(const AnyEngine& engine) {
+    Effects lossless = effects_;
+    lossless.collision.restitution.reset();
+    lossless.collision.roughness.reset();
+    for (WallProperties& wall : lossless.walls) wall.restitution.reset();
+    lossless.drag.reset();
+    has_all_its_energy_ = detail::conserve_energy(lossless);
     const Counts& counts = engine.counts();
     by_collisions_.begin({engine.now(), counts.pair, counts.pair});
     by_all_.begin({engine.now(), happenings(counts), counts.pair});
@@ -120,6 +126,10 @@ class Standstill {
   /// grows as the time, to 0.71.
   static constexpr std::uint64_t quickened_marks = 6;
   static constexpr double quickened_pace = 2.0 / 3.0;
+  /// A light disk that a heavy one drives against a wall meets it ever more often, until the heavy one has given it all its
+  /// energy and turns round: up to then the time per event falls to a quarter. Where no energy comes from outside every squeeze
+  /// ends so. In a collapse it falls by about the same factor at each event.
+  static constexpr double collapsing_pace = 1.0 / 16.0;
 
   [[nodiscard]] bool grows() const { return detail::any_acting(effects_, &detail::EffectTraits::changes_radii); }
   [[nodiscard]] bool has_moving_walls() const {
@@ -162,11 +172,13 @@ class Standstill {
     const auto done = static_cast<double>(now.number - before.number);
     const double pace = now.time.since<double>(before.time) / done;
     const double pairs = static_cast<double>(now.pairs - before.pairs) / done;
+    const double share = pace / course.pace;
     course.quickened = pace < quickened_pace * course.pace ? course.quickened + 1
                                                            : course.quickened - std::min<std::uint64_t>(course.quickened, 1);
     course.pace = pace;
     while (course.mark_at <= now.number) course.mark_at *= 2;
     if (course.quickened < quickened_marks) return false;
+    if (has_all_its_energy_ && !(effects_.dissipate() && share < collapsing_pace)) return false;
     if (effects_.growth && effects_.growth->reduced_pressure && pairs > 0.0) return false;  // which rises as the pace falls
     const Instant until = std::min(end.time, engine.grown_at());
     constexpr double never = std::numeric_limits<double>::infinity();
@@ -181,6 +193,7 @@ class Standstill {
   double smallest_;
   const Effects& effects_;
   Course by_collisions_, by_all_;
+  bool has_all_its_energy_ = false;  ///< nothing brings disks more
 };
 
 }  // namespace carom::detail

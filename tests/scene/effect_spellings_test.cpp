@@ -78,9 +78,10 @@ TEST(EffectSpellings, MovingWallsMayCloseWhereTheRunEndsByCollisions) {
   EXPECT_NO_THROW(parse_scene(changed({{"time = 5.0", "collisions = 1000"}}) + "[walls]\nleft = { velocity = 100.0 }\n"));
 }
 
-TEST(EffectSpellings, MovingWallsMayComeAsNearAsTheLargestDiameter) {
-  // In time 5 they go from 8 to 0.5 apart.
-  EXPECT_NO_THROW(with("[walls]\ntop = { velocity = -0.75 }\nbottom = { velocity = 0.75 }\n"));
+TEST(EffectSpellings, MovingWallsMayComeNearlyAsNearAsTheLargestDiameter) {
+  // In time 5 they go from 8 to 0.5 apart, where a disk of that size would have no room at all, and to 0.5001.
+  EXPECT_THROW(with("[walls]\ntop = { velocity = -0.75 }\nbottom = { velocity = 0.75 }\n"), SceneError);
+  EXPECT_NO_THROW(with("[walls]\ntop = { velocity = -0.75 }\nbottom = { velocity = 0.74998 }\n"));
 }
 
 TEST(EffectSpellings, ObstaclesAreDisksAndSegments) {

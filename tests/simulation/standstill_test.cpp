@@ -118,6 +118,43 @@ TEST(EnginesStandstill, WallsThatCloseInUntilNothingFitsEndTheRun) {
   }
 }
 
+/// A disk between a wall and one of mass `heavy` that comes towards it.
+Scene squeezed(double heavy) {
+  Scene scene;
+  scene.box = {{0.0, 0.0}, {100.0, 1.0}, {Boundary::walls, Boundary::walls}};
+  scene.species = {species_of(1, 0.5, 1.0, ListedPositions{{{5.0, 0.5}}}, ListedVelocities{{{0.0, 0.0}}}),
+                   species_of(1, 0.5, heavy, ListedPositions{{{10.0, 0.5}}}, ListedVelocities{{{-1.0, 0.0}}})};
+  scene.effects.collision.rule = CollisionRule::specular;
+  scene.run.time = 50.0;
+  return scene;
+}
+
+TEST(EnginesStandstill, ASqueezeThatOpensAgainIsNoEnd) {
+  // G. Galperin, Playing pool with pi (2003): the number of collisions has the digits of pi. Up to the nearest approach the clock
+  // seems to converge.
+  for (const char* engine : {"fast", "textbook"}) {
+    Simulation simulation = make_simulation(squeezed(1e12), engine);
+    EXPECT_EQ(run_schedule(simulation).stopped, StopReason::time) << engine;
+    EXPECT_EQ(simulation.counts().pair + simulation.counts().wall, 3'141'592U) << engine;
+  }
+  Scene lossy = squeezed(1e12);
+  lossy.effects.collision.restitution = 1.0 - 1e-10;
+  Simulation simulation = make_simulation(lossy);
+  EXPECT_EQ(run_schedule(simulation).stopped, StopReason::time);
+}
+
+TEST(EnginesStandstill, DisksThatNeverLostAnythingHaveNotCooled) {
+  Scene scene;
+  scene.box = {{0.0, 0.0}, {8.0, 8.0}, {Boundary::periodic, Boundary::periodic}};
+  scene.species = {
+      species_of(2, 0.5, 1.0, ListedPositions{{{2.0, 4.0}, {4.0, 4.0}}}, ListedVelocities{{{1.0 + 0x1p-16, 0.0}, {1.0, 0.0}}})};
+  scene.effects.collision.restitution = 0.5;
+  scene.run.collisions = 1;
+  Simulation simulation = make_simulation(scene);
+  EXPECT_EQ(run_schedule(simulation).stopped, StopReason::collisions);
+  EXPECT_NEAR(simulation.time(), 0x1p16, 1e-9);  // a gap of 1 closes at 2^-16
+}
+
 TEST(EnginesStandstill, AGasThatShearHeatsWithoutEndEndsTheRun) {
   for (const char* engine : {"general", "textbook"}) {
     Scene scene = gas_scene(16, 0.4, Boundary::periodic);
