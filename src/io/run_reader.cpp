@@ -161,8 +161,9 @@ State RunReader::sample(std::uint64_t k) const {
       state.walls[side].velocity = of_walls[side];
     for (const double bonds : observable("bonds", k, 1)) state.bonds = static_cast<std::uint64_t>(bonds);
     if (scene_.effects.square_well) state.pairs_in_steps = {state.bonds};
-    if (scene_.effects.stepped_potential)
-      for (const double pairs : observable("pairs_in_steps", k, scene_.effects.potential_steps().size()))
+    // Of all steps of the run, which changes may bring in.
+    if (const auto extents = detail::extents_of(file_->get(), "/observables/pairs_in_steps/value"); extents.size() == 2)
+      for (const double pairs : observable("pairs_in_steps", k, extents[1]))
         state.pairs_in_steps.push_back(static_cast<std::uint64_t>(pairs));
     for (const double scale : observable("scale", k, 1)) state.scale = scale;
     for (const double displacement : observable("shear_displacement", k, 1)) state.shear_displacement = displacement;

@@ -100,6 +100,21 @@ TEST_F(RunReaderTest, GivesWhatPistonsAndPairPotentialsKeep) {
   }
 }
 
+TEST_F(RunReaderTest, GivesPairsInStepsThatAChangeBringsIn) {
+  record(
+      parse_scene(
+          mixture + "[[changes]]\ntime = 1.0\nset = [\"stepped_potential.steps=[{ width = 1.2, energy = 0.5 }, { width "
+                    "= 1.5, energy = -0.3 }]\"]\n",
+          "mixture",
+          {"walls.top.velocity=0", "stepped_potential={ steps = [{ width = 1.2, energy = 0 }, { width = 1.5, energy = 0 }] }"}),
+      run_);
+  const RunReader reader(run_);
+  ASSERT_EQ(reader.samples(), 13U);
+  EXPECT_EQ(reader.sample(12).pairs_in_steps.size(), 2U);
+  const State first = reader.sample(0);
+  EXPECT_TRUE(first.positions.allFinite());
+}
+
 TEST_F(RunReaderTest, GivesStatesAndEventsOfTheEngineBitByBit) {
   const RunReader reader(recorded());
   Simulation simulation = make_simulation(parse_scene(mixture));
