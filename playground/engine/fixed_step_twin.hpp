@@ -22,7 +22,9 @@ class FixedStepTwin {
  public:
   /// Begins with the disks as they are in the run now. Throws std::invalid_argument where the method cannot run the scene.
   FixedStepTwin(const LiveRun& run, const std::string& method, double dt)
-      : simulation_(make_simulation(run.simulation().scene(), state_of(run), FixedStep{method, dt})), before_(run.time()) {}
+      : simulation_(make_simulation(run.simulation().scene(), state_of(run), FixedStep{method, dt})),
+        box_at_start_(run.first_scene().box),
+        before_(run.time()) {}
 
   /// Follows the run to its time, for at most `budget` milliseconds.
   void follow(const LiveRun& run, double budget) {
@@ -38,7 +40,7 @@ class FixedStepTwin {
     const Scene& scene = simulation_.scene();
     const Overlaps found = overlaps_of(scene.box, simulation_.disks(), now, overlapping_);
     deepest_ = std::max(deepest_, found.deepest);
-    const double energy = total_energy(scene.box, scene.effects, simulation_.disks(), now);
+    const double energy = energies_of(scene.box, scene.effects, simulation_.disks(), now, box_at_start_).total();
     return fmt::format("{{\"time\":{},\"overlapping\":{},\"deepest\":{},\"collisions\":{},\"energy\":{}}}",
                        json_number(before_ + simulation_.time()), found.pairs, json_number(deepest_), simulation_.counts().pair,
                        json_number(energy));
@@ -54,7 +56,8 @@ class FixedStepTwin {
   }
 
   Simulation simulation_;
-  double before_;  ///< the time of the run at which it began
+  Box box_at_start_;  ///< from which the run counts heights
+  double before_;     ///< the time of the run at which it began
   double deepest_ = 0.0;
   std::vector<std::uint8_t> overlapping_;
 };

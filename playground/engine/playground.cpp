@@ -181,8 +181,7 @@ EMSCRIPTEN_KEEPALIVE const double* carom_state() {
   list_places_and_velocities(shown, disks_of_page);
   const Simulation& simulation = run.simulation();
   const Scene& scene = simulation.scene();
-  const Box heights = with_ground_of_start(scene.box, run.first_scene().box, scene.effects);
-  const Energies energies = energies_of(heights, scene.effects, simulation.disks(), shown);
+  const Energies energies = energies_of(scene.box, scene.effects, simulation.disks(), shown, run.first_scene().box);
   const Box box = box_of(scene.box, shown);
   const Totals totals = simulation.totals();
   numbers = {shown.time,

@@ -138,7 +138,7 @@ std::vector<std::string> LiveView::gauges(const Progress& progress, const State&
   const Disks& disks = simulation_.disks();
   const RunEstimate::Estimate estimate = estimate_.at(progress, now);
   const double kT = kinetic_temperature(scene.box, scene.effects, disks, state);
-  const double energy = total_energy(scene.box, scene.effects, disks, state);
+  const double energy = energies_of(scene.box, scene.effects, disks, state, simulation_.whole_scene().box).total();
   if (!progress.equilibrating && !energy_at_start_) energy_at_start_ = energy;
   std::vector<std::string> lines = {
       fmt::format("time       {:.6g}{}", progress.time, progress.equilibrating ? " (equilibrating)" : ""),

@@ -153,9 +153,19 @@ void visit_events(const EffectsReport& report, AnyCounts& counts, Visit&& visit)
   if (report.obstacles || report.circle) visit("obstacle", "obstacle hits", counts.obstacle);
   if (report.bonds) visit("well", "", counts.well);
   if (report.stepped_potential) visit("step", "edges of steps", counts.well);
-  if (report.thermostat) visit("thermostat", "thermostat events", counts.thermostat);
-  if (report.tumbling) visit("tumbling", "", counts.thermostat);
-  if (report.brownian) visit("brownian", "velocities redrawn", counts.thermostat);
+  // Of the three one acts at most between two changes, and the engine counts their redraws together.
+  const auto visit_redraws = [&](const char* key, const char* quantity, std::uint64_t of_this_effect) {
+    if constexpr (std::is_const_v<AnyCounts>) {
+      visit(key, quantity, of_this_effect);
+    } else {
+      std::uint64_t read = 0;
+      visit(key, quantity, read);
+      counts.thermostat += read;
+    }
+  };
+  if (report.thermostat) visit_redraws("thermostat", "thermostat events", report.thermostat->events);
+  if (report.tumbling) visit_redraws("tumbling", "", report.tumbling->events);
+  if (report.brownian) visit_redraws("brownian", "velocities redrawn", report.brownian->events);
 }
 
 /// Returns the unit of a number of a section, "growth.energy" or "obstacles.momentum.x"; empty for a pure number and for a name

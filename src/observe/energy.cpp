@@ -59,9 +59,11 @@ double gravitational_energy(const Box& box, const Effects& effects, const Disks&
   return static_cast<double>(energy_of_heights(box, effects.acceleration(), disks, state));
 }
 
-double potential_energy(const Box& box, const Effects& effects, const Disks& disks, const State& state) {
+namespace {
+
+double potential_energy(const Box& box, const Effects& effects, const Disks& disks, const State& state, const Box& of_heights) {
   Wide sum = 0.0;
-  sum += energy_of_heights(box, effects.acceleration(), disks, state);
+  sum += energy_of_heights(of_heights, effects.acceleration(), disks, state);
   if (effects.square_well) sum -= static_cast<Wide>(effects.square_well->depth) * static_cast<Wide>(state.bonds);
   if (effects.stepped_potential) {
     const std::vector<PotentialStep> steps = effects.potential_steps();
@@ -71,12 +73,10 @@ double potential_energy(const Box& box, const Effects& effects, const Disks& dis
   return static_cast<double>(sum + energy_of_loads(box, effects, state));
 }
 
-Box with_ground_of_start(const Box& now, const Box& at_start, const Effects& effects) {
-  const Eigen::Vector2d g = effects.acceleration();
-  Box box = now;
-  for (int axis = 0; axis < 2; ++axis)
-    if (g[axis] != 0.0) box.lower[axis] = at_start.lower[axis], box.upper[axis] = at_start.upper[axis];
-  return box;
+}  // namespace
+
+double potential_energy(const Box& box, const Effects& effects, const Disks& disks, const State& state) {
+  return potential_energy(box, effects, disks, state, box);
 }
 
 double piston_energy(const Effects& effects, const State& state) {
@@ -88,11 +88,15 @@ double piston_energy(const Effects& effects, const State& state) {
   return sum;
 }
 
-Energies energies_of(const Box& box, const Effects& effects, const Disks& disks, const State& state) {
+Energies energies_of(const Box& box, const Effects& effects, const Disks& disks, const State& state, const Box& of_heights) {
   return {.kinetic = kinetic_energy(disks, state),
           .spin = spin_energy(disks, state),
-          .potential = potential_energy(box, effects, disks, state),
+          .potential = potential_energy(box, effects, disks, state, of_heights),
           .pistons = piston_energy(effects, state)};
+}
+
+Energies energies_of(const Box& box, const Effects& effects, const Disks& disks, const State& state) {
+  return energies_of(box, effects, disks, state, box);
 }
 
 double total_energy(const Box& box, const Effects& effects, const Disks& disks, const State& state) {

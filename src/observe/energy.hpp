@@ -26,10 +26,6 @@ namespace carom {
 /// Returns the sum of M u^2 / 2 over pistons
 [[nodiscard]] double piston_energy(const Effects& effects, const State& state);
 
-/// Returns the box by which to measure now what was measured by the box of the start: a wall that a change has stopped moves the
-/// edge of the box, but heights in a field are still counted from where it was.
-[[nodiscard]] Box with_ground_of_start(const Box& now, const Box& at_start, const Effects& effects);
-
 /// Energy, and of what kind it is.
 struct Energies {
   double kinetic = 0.0;
@@ -42,6 +38,10 @@ struct Energies {
   [[nodiscard]] double scale() const { return kinetic + spin + std::abs(potential) + pistons; }
 };
 [[nodiscard]] Energies energies_of(const Box& box, const Effects& effects, const Disks& disks, const State& state);
+/// Counts heights from another box, that of the start: a wall that a change has stopped moves an edge of `box`, to which loads
+/// refer.
+[[nodiscard]] Energies energies_of(const Box& box, const Effects& effects, const Disks& disks, const State& state,
+                                   const Box& of_heights);
 
 [[nodiscard]] double total_energy(const Box& box, const Effects& effects, const Disks& disks, const State& state);
 

@@ -52,8 +52,7 @@ void RunMeasurements::sample(const State& state) {
 
 Energies RunMeasurements::energies(const State& state) const {
   const Scene& scene = simulation_.scene();
-  const Box box = with_ground_of_start(scene.box, simulation_.whole_scene().box, scene.effects);
-  return energies_of(box, scene.effects, simulation_.disks(), state);
+  return energies_of(scene.box, scene.effects, simulation_.disks(), state, simulation_.whole_scene().box);
 }
 
 /// The energy of disks and pistons, and of fields, before the change and after it. One that cannot be made gives none.
@@ -139,12 +138,16 @@ void RunMeasurements::count_redraws() {
     if (&other != &mine) mine.events -= other.events, mine.energy -= other.energy;
 }
 
-void RunMeasurements::add_changes(const Scene& whole) {
-  EffectsReport& report = report_.of_effects;
+void RunMeasurements::add_redraws() {
   count_redraws();
+  EffectsReport& report = report_.of_effects;
   if (report.thermostat) report.thermostat = {.events = redraws_[0].events, .energy = redraws_[0].energy};
   if (report.tumbling) report.tumbling = {.events = redraws_[1].events};
   if (report.brownian) report.brownian = {.events = redraws_[2].events, .energy = redraws_[2].energy};
+}
+
+void RunMeasurements::add_changes(const Scene& whole) {
+  EffectsReport& report = report_.of_effects;
   report_.engine_asked = simulation_.engine_reason() == detail::engine_was_asked_for ? simulation_.engine() : "auto";
   report.changes = {.made = changes_, .energy = energy_of_changes_};
   if (report.energies_end) report.energies_end = energies(simulation_.state());
@@ -183,6 +186,7 @@ RunReport RunMeasurements::report(const RunResult& result, double wall_seconds) 
   const Scene& whole = simulation_.whole_scene();
   if (!whole.changes.empty()) put_walls(state, scene.box);
   report_.of_effects = effects_report(whole, disks, report_.totals, state);
+  add_redraws();
   if (!whole.changes.empty()) add_changes(whole);
   if (!result.measured) report_.of_effects.energy_supplied.reset();  // totals began before the initial energy did
   effect_means_.add_to(report_.of_effects, whole, disks, state);

@@ -38,6 +38,7 @@ class RunMeasurements {
   void look_for_overlap(const State& state);
   void add_kinetic(double time, double temperature);
   void count_redraws();
+  void add_redraws();
   void add_changes(const Scene& whole);
   void measure_Z(const RunResult& result, double temperature);
 

@@ -227,6 +227,22 @@ TEST(RunMeasurements, AFloorThatAChangeStopsLeavesTheZeroOfHeightsWhereItWas) {
   EXPECT_NEAR(report.of_effects.packing_fraction_end.value(), scene.packing_fraction() * scene.box.area() / larger, 1e-15);
 }
 
+TEST(RunMeasurements, LoadsActOnTheLengthOfNowWhereAChangeStopsAWall) {
+  // Along x disks fall; the left wall stops at time 1, and from then on nothing brings or takes energy.
+  Scene scene = gas_scene(16, 0.1, Boundary::walls);
+  scene.effects.gravity = Gravity{.acceleration = {-0.5, 0.0}};
+  scene.effects.walls[0].velocity = -1.0;
+  scene.effects.walls[3].mass = 5.0;
+  scene.effects.walls[3].load = 0.5;
+  scene.changes = {{1.0, SetKeys{{"walls.left.velocity=0"}}}};
+  const auto energy_at = [&](double time) {
+    scene.run.time = time;
+    return measure(scene).report.energy_final;
+  };
+  const double first = energy_at(1.5);
+  EXPECT_NEAR(energy_at(6.0), first, 1e-10 * std::abs(first));
+}
+
 TEST(RunMeasurements, RedrawsAreCountedForWhoeverActed) {
   Scene scene = gas_scene(16, 0.1, Boundary::periodic);
   scene.run.time = 2.0;
