@@ -188,6 +188,6 @@ void Simulation::set_collision_rule(CollisionFunction rule) {
   ++parts_->changes_by_program;
 }
 
-bool Simulation::has_collision_rule() const { return parts_->rule || parts_->rule_missing; }
+bool Simulation::has_collision_rule() const { return parts_->has_rule(); }
 
 }  // namespace carom

@@ -3,7 +3,7 @@
 
 #include "core/instant.hpp"
 #include "engine/collision_listener.hpp"
-#include "engine/engine.hpp"
+#include "simulation/any_engine.hpp"
 
 #include <carom/collisions.hpp>
 #include <carom/simulation.hpp>

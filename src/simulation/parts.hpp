@@ -92,6 +92,7 @@ struct Simulation::Parts {
   void require_changeable() const;
   /// Throws std::logic_error where nothing can run.
   void require_rule() const;
+  [[nodiscard]] bool has_rule() const { return static_cast<bool>(rule) || rule_missing; }
   /// Simulation::run_until() for an exact time.
   StopReason run_to(const Instant& target, const RunLimits& limits);
   /// Does the same, for runs in several stretches with one watch.

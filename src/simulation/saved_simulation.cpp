@@ -167,7 +167,8 @@ Simulation restore_simulation(const Scene& given, std::istream& in) {
     bool has_run = false;
     archive(has_run);
     if (has_run)
-      archive(parts.standstill.emplace(*parts.engine, parts.disks.count(), parts.smallest_radius, parts.scene.effects));
+      archive(parts.standstill.emplace(*parts.engine, parts.disks.count(), parts.smallest_radius, parts.scene.effects,
+                                       parts.has_rule()));
     if (!checked.at_end()) throw std::runtime_error("it holds more than a simulation");
     return simulation;
   } catch (const SceneError&) {

@@ -56,7 +56,7 @@ class Schedule {
  public:
   /// `make_change` makes the next of the scene's changes, which leaves another engine in `engine`.
   Schedule(const Scene& scene, const std::unique_ptr<detail::AnyEngine>& engine, const Disks& disks, double smallest_radius,
-           const RunHooks& hooks, std::function<void()> make_change, bool& clock_began)
+           bool own_rule, const RunHooks& hooks, std::function<void()> make_change, bool& clock_began)
       : scene_(scene),
         run_(scene.run),
         effects_(scene.effects),
@@ -69,7 +69,7 @@ class Schedule {
         disks_(disks),
         grids_(run_, hooks),
         relay_(hooks),
-        standstill_(*engine, disks.count(), smallest_radius, effects_),
+        standstill_(*engine, disks.count(), smallest_radius, effects_, own_rule),
         moving_as_one_(std::in_place, *engine, scene, disks, block_collisions_) {}
   Schedule(const Schedule&) = delete;
   Schedule& operator=(const Schedule&) = delete;
@@ -474,7 +474,7 @@ RunResult run_schedule(Simulation& simulation, const RunHooks& hooks) {
   } const at_work(parts.scheduled);
   parts.recording = false;
   return Schedule(
-      parts.scene, parts.engine, parts.disks, parts.smallest_radius, hooks, [&parts] { parts.make_change(); },
+      parts.scene, parts.engine, parts.disks, parts.smallest_radius, parts.has_rule(), hooks, [&parts] { parts.make_change(); },
       parts.clock_began)();
 }
 

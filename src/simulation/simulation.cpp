@@ -68,7 +68,7 @@ StopReason Simulation::Parts::run_between_changes(const Instant& target, const R
 }
 
 void Simulation::Parts::look_for_standstill() {
-  if (!standstill) standstill.emplace(*engine, disks.count(), smallest_radius, scene.effects);
+  if (!standstill) standstill.emplace(*engine, disks.count(), smallest_radius, scene.effects, has_rule());
 }
 
 void Simulation::Parts::keep_whole(const Scene& given) {

@@ -34,11 +34,12 @@ struct RunEnd {
 class Standstill {
  public:
   /// The run begins, or goes on, where `engine` is. `smallest`: the smallest radius of the `disks`, which to find takes longer
-  /// than an event.
-  Standstill(const AnyEngine& engine, std::size_t disks, double smallest, const Effects& effects)
+  /// than an event. `own_rule`: collisions follow a rule of the program.
+  Standstill(const AnyEngine& engine, std::size_t disks, double smallest, const Effects& effects, bool own_rule)
       : disks_(disks),
         smallest_(smallest),
         effects_(effects),
+        own_rule_(own_rule),
         by_collisions_({.first_mark = 8'192 + 32 * disks, .most = 5e11}),
         by_all_({.first_mark = 16'384 + 64 * disks, .most = 1e12, .meeting = 1.0 / 64.0}) {
     begin(engine);
@@ -51,7 +52,7 @@ class Standstill {
     lossless.collision.roughness.reset();
     for (WallProperties& wall : lossless.walls) wall.restitution.reset();
     lossless.drag.reset();
-    has_all_its_energy_ = detail::conserve_energy(lossless);
+    has_all_its_energy_ = !own_rule_ && detail::conserve_energy(lossless);
     // Where energy stays what it is, touching disks come apart after some million hits at one instant; patience is that of
     // engine/stall_detector.hpp.
     const bool may_part = has_all_its_energy_ && !effects_.dissipate();
@@ -196,6 +197,7 @@ class Standstill {
   std::size_t disks_;
   double smallest_;
   const Effects& effects_;
+  bool own_rule_;  ///< of the program, which may do anything to energy
   Course by_collisions_, by_all_;
   bool has_all_its_energy_ = false;  ///< nothing brings disks more
 };
