@@ -135,7 +135,6 @@ void RunTheory::find_velocities() {
   const Eigen::Vector2d common = report_.momentum_initial.cwiseProduct(Eigen::Vector2d(x ? 1.0 : 0.0, y ? 1.0 : 0.0));
   const double energy = common.squaredNorm() / (2.0 * source_->disks.total_mass());
   moves_as_a_whole_ = energy > 1e-12 * static_cast<double>(report_.disks) * kT_;
-  if (moves_as_a_whole_) return;
   const bool is_fixed = effects.neutral() && x == y;
   velocities_ = is_fixed ? Velocities::fixed_energy : Velocities::maxwell;
   kT_ = effects.bath_temperature().value_or(kT_);
@@ -168,7 +167,7 @@ double RunTheory::velocity_density(const Kind& kind, double x, bool of_energy) c
 }
 
 std::vector<TheoryCurve> RunTheory::velocity_curves(const Table& table, const std::string& column) const {
-  if (velocities_ == Velocities::unknown) return {};
+  if (velocities_ == Velocities::unknown || moves_as_a_whole_) return {};
   constexpr std::size_t most_kinds = 50;  // of masses; each is a term of every point
   const std::vector<Kind> all = kinds(column.substr(std::string("density").size()));
   if (all.empty() || all.size() > most_kinds) return {};
@@ -290,8 +289,8 @@ std::vector<TheoryMark> RunTheory::marks(const Table& table, const std::string& 
 
 std::optional<Expected> RunTheory::of(const std::string& observable, const std::string& scalar) const {
   const std::string name = observable + "." + scalar;
-  if (velocities_ == Velocities::fixed_energy && observable == "velocity_moments" && source_->species == 1 &&
-      all_equal(source_->disks.mass)) {
+  if (velocities_ == Velocities::fixed_energy && !moves_as_a_whole_ && observable == "velocity_moments" &&
+      source_->species == 1 && all_equal(source_->disks.mass)) {
     const theory::Microcanonical law(report_.disks, conserves_momentum_);
     const double square = 2.0 * kT_ / mass_ * (conserves_momentum_ ? 1.0 - 1.0 / static_cast<double>(report_.disks) : 1.0);
     const std::string source = fmt::format("law for {} disks", report_.disks);
