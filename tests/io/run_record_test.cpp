@@ -36,6 +36,7 @@ RunReport with_effects() {
   effects.spin_temperature = 1.25;
   effects.dissipated = 0.5;
   effects.obstacles = Eigen::Vector2d(1.5, -2.0);
+  report.totals.thermostat = 4321;
   effects.thermostat = {.events = 4321, .energy = -10.0};
   effects.growth = {.scale = 1.5, .packing_fraction = 0.75, .energy = 20.0};
   effects.shear = {
@@ -65,6 +66,18 @@ TEST(RunReportOf, IsTheInverseOfTheSummary) {
 
 TEST(RunReportOf, HasAllThatEffectsDid) {
   const Json json = json_of(with_effects());
+  EXPECT_EQ(again(json), json);
+}
+
+TEST(RunReportOf, TellsApartWhoHasRedrawnVelocities) {
+  RunReport report = with_effects();
+  report.totals.thermostat = 4321 + 65 + 7;
+  report.of_effects.tumbling = TumblingReport{.events = 65};
+  report.of_effects.brownian = ThermostatReport{.events = 7, .energy = 0.5};
+  const Json json = json_of(report);
+  EXPECT_EQ(json.at("events").at("thermostat"), 4321);
+  EXPECT_EQ(json.at("events").at("tumbling"), 65);
+  EXPECT_EQ(json.at("events").at("brownian"), 7);
   EXPECT_EQ(again(json), json);
 }
 
