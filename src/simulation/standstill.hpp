@@ -53,10 +53,7 @@ class Standstill {
     for (WallProperties& wall : lossless.walls) wall.restitution.reset();
     lossless.drag.reset();
     has_all_its_energy_ = !own_rule_ && detail::conserve_energy(lossless);
-    // Where energy stays what it is, touching disks come apart after some million hits at one instant; patience is that of
-    // engine/stall_detector.hpp.
-    const bool may_part = has_all_its_energy_ && !effects_.dissipate();
-    by_collisions_.block_length = may_part ? 10'000'000 + 100 * disks_ : 500'000 + 50 * disks_;
+    by_collisions_.block_length = 500'000 + 50 * disks_;
     by_all_.block_length = 2 * by_collisions_.block_length;
     const Counts& counts = engine.counts();
     by_collisions_.begin({engine.now(), counts.pair, counts.pair});
