@@ -28,7 +28,7 @@ StopReason stop_reason_in(const std::string& word) {
   throw Json::other_error::create(501, fmt::format("no run stops by \"{}\"", word), nullptr);
 }
 
-Totals totals_in(const Json& json, const EffectsReport& effects) {
+Totals totals_in(const Json& json, EffectsReport& effects) {
   const Json& events = json.at("events");
   Totals totals;
   totals.pair = events.at("pair").get<std::uint64_t>();
@@ -36,6 +36,9 @@ Totals totals_in(const Json& json, const EffectsReport& effects) {
   totals.other = events.at("other").get<std::uint64_t>();
   totals.stale = events.at("stale").get<std::uint64_t>();
   visit_events(effects, totals, [&](const char* key, const char*, std::uint64_t& count) { count = count_in(events, key); });
+  if (effects.thermostat) totals.thermostat += effects.thermostat->events;
+  if (effects.tumbling) totals.thermostat += effects.tumbling->events;
+  if (effects.brownian) totals.thermostat += effects.brownian->events;
   totals.virial = finite_in(json.at("virial"));
   for (std::size_t side = 0; side < 4; ++side)
     totals.wall_impulse[side] = finite_in(json.at("wall_impulse").at(wall_names[side]));

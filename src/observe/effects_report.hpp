@@ -148,24 +148,14 @@ void visit_sections(Report& report, Visit&& visit) {
 
 /// Calls visit(key, quantity, count) for each kind of event that only an effect of this report has: its key in `events` of
 /// summary.json, its name in tables for people (empty where they leave it out), and its count.
-template <class AnyCounts, class Visit>
-void visit_events(const EffectsReport& report, AnyCounts& counts, Visit&& visit) {
+template <class Report, class AnyCounts, class Visit>
+void visit_events(Report& report, AnyCounts& counts, Visit&& visit) {
   if (report.obstacles || report.circle) visit("obstacle", "obstacle hits", counts.obstacle);
   if (report.bonds) visit("well", "", counts.well);
   if (report.stepped_potential) visit("step", "edges of steps", counts.well);
-  // Of the three one acts at most between two changes, and the engine counts their redraws together.
-  const auto visit_redraws = [&](const char* key, const char* quantity, std::uint64_t of_this_effect) {
-    if constexpr (std::is_const_v<AnyCounts>) {
-      visit(key, quantity, of_this_effect);
-    } else {
-      std::uint64_t read = 0;
-      visit(key, quantity, read);
-      counts.thermostat += read;
-    }
-  };
-  if (report.thermostat) visit_redraws("thermostat", "thermostat events", report.thermostat->events);
-  if (report.tumbling) visit_redraws("tumbling", "", report.tumbling->events);
-  if (report.brownian) visit_redraws("brownian", "velocities redrawn", report.brownian->events);
+  if (report.thermostat) visit("thermostat", "thermostat events", report.thermostat->events);
+  if (report.tumbling) visit("tumbling", "", report.tumbling->events);
+  if (report.brownian) visit("brownian", "velocities redrawn", report.brownian->events);
 }
 
 /// Returns the unit of a number of a section, "growth.energy" or "obstacles.momentum.x"; empty for a pure number and for a name

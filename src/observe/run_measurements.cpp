@@ -7,6 +7,7 @@
 #include "observe/equilibrium.hpp"
 #include "observe/geometry.hpp"
 #include "observe/mechanics.hpp"
+#include "scene/walls.hpp"
 #include "simulation/engine_reason.hpp"
 
 #include <algorithm>
@@ -107,15 +108,6 @@ void RunMeasurements::measure_Z(const RunResult& result, double temperature) {
 
 namespace {
 
-/// Puts the four walls into a state that has none since they stand where the box ends, such as those that a change has stopped.
-void put_walls(State& state, const Box& box) {
-  if (!state.walls.empty()) return;
-  for (const int axis : {0, 1}) {
-    state.walls.push_back({box.lower[axis], 0.0});
-    state.walls.push_back({box.upper[axis], 0.0});
-  }
-}
-
 /// Returns whether a change of the scene sets a key of this table.
 bool some_change_sets(const Scene& scene, std::string_view table) {
   return std::ranges::any_of(scene.changes, [&](const Change& change) {
@@ -132,18 +124,18 @@ void RunMeasurements::count_redraws() {
   const Totals totals = simulation_.totals();
   const bool is_brownian = acting.brownian && acting.brownian->rate > 0.0,
              tumbles = acting.tumbling && acting.tumbling->rate > 0.0;
-  Redraws& mine = redraws_[is_brownian ? 2 : tumbles ? 1 : 0];
-  mine.events = totals.thermostat, mine.energy = totals.thermostat_energy;
-  for (const Redraws& other : redraws_)
+  ThermostatReport& mine = redraws_[is_brownian ? 2 : tumbles ? 1 : 0];
+  mine = {.events = totals.thermostat, .energy = totals.thermostat_energy};
+  for (const ThermostatReport& other : redraws_)
     if (&other != &mine) mine.events -= other.events, mine.energy -= other.energy;
 }
 
 void RunMeasurements::add_redraws() {
   count_redraws();
   EffectsReport& report = report_.of_effects;
-  if (report.thermostat) report.thermostat = {.events = redraws_[0].events, .energy = redraws_[0].energy};
+  if (report.thermostat) report.thermostat = redraws_[0];
   if (report.tumbling) report.tumbling = {.events = redraws_[1].events};
-  if (report.brownian) report.brownian = {.events = redraws_[2].events, .energy = redraws_[2].energy};
+  if (report.brownian) report.brownian = redraws_[2];
 }
 
 void RunMeasurements::add_changes(const Scene& whole) {
@@ -184,7 +176,7 @@ RunReport RunMeasurements::report(const RunResult& result, double wall_seconds) 
   report_.faults = result.faults;
   report_.blocked_by = result.blocked_by;
   const Scene& whole = simulation_.whole_scene();
-  if (!whole.changes.empty()) put_walls(state, scene.box);
+  if (!whole.changes.empty() && state.walls.empty()) state.walls = walls_at_rest(scene.box);
   report_.of_effects = effects_report(whole, disks, report_.totals, state);
   add_redraws();
   if (!whole.changes.empty()) add_changes(whole);

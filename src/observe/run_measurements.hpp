@@ -30,7 +30,7 @@ class RunMeasurements {
     archive(report_.energy_initial, report_.energy_scale, report_.momentum_initial, report_.max_relative_overlap,
             report_.overlap_checked, report_.overlap_at_start, virial_, virial_over_kinetic_, kinetic_, seen_temperature_,
             seen_time_, temperature_sum_, effect_means_, samples_, energy_of_changes_, changes_);
-    for (Redraws& redraws : redraws_) archive(redraws.events, redraws.energy);
+    for (ThermostatReport& redraws : redraws_) archive(redraws.events, redraws.energy);
   }
 
  private:
@@ -54,14 +54,8 @@ class RunMeasurements {
   double energy_of_changes_ = 0.0;     ///< given by the scene's changes
   std::uint64_t changes_ = 0;          ///< made
   double energy_before_change_ = 0.0;  ///< of the change that is being made
-
-  /// Velocities redrawn, and the energy given by it: by the thermostat, by tumbling and by Brownian motion, of which one acts at
-  /// most between two changes.
-  struct Redraws {
-    std::uint64_t events = 0;
-    double energy = 0.0;
-  };
-  std::array<Redraws, 3> redraws_ = {};
+  /// By the thermostat, by tumbling and by Brownian motion, of which one acts at most between two changes.
+  std::array<ThermostatReport, 3> redraws_ = {};
 };
 
 }  // namespace carom

@@ -4,6 +4,7 @@
 #include "core/state_archive.hpp"
 #include "io/partial_file.hpp"
 #include "observe/effects_report.hpp"
+#include "scene/walls.hpp"
 #include "simulation/start.hpp"
 
 #include <fmt/format.h>
@@ -178,8 +179,7 @@ const State& Runner::as_in_files(const State& state) {
   if (grown == 1.0 && !moved) return state;
   in_files_ = state;
   in_files_.scale *= grown;
-  if (moved)
-    for (const int axis : {0, 1}) in_files_.walls.insert(in_files_.walls.end(), {{box.lower[axis], 0.0}, {box.upper[axis], 0.0}});
+  if (moved) in_files_.walls = walls_at_rest(box);
   return in_files_;
 }
 

@@ -3,11 +3,13 @@
 
 #include <carom/box.hpp>
 #include <carom/effects.hpp>
+#include <carom/state.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 namespace carom {
 
@@ -20,6 +22,12 @@ constexpr bool is_upper_wall(std::size_t wall) { return wall % 2 == 1; }
 inline double& edge_of(Box& box, std::size_t wall) { return (is_upper_wall(wall) ? box.upper : box.lower)[axis_of_wall(wall)]; }
 inline double edge_of(const Box& box, std::size_t wall) {
   return (is_upper_wall(wall) ? box.upper : box.lower)[axis_of_wall(wall)];
+}
+/// Returns four walls at rest where the box ends, as a change leaves them that has stopped the last one which moved.
+inline std::vector<WallState> walls_at_rest(const Box& box) {
+  std::vector<WallState> walls;
+  for (std::size_t wall = 0; wall < wall_names.size(); ++wall) walls.push_back({edge_of(box, wall), 0.0});
+  return walls;
 }
 
 /// Returns whether a wall can be anywhere but where the scene puts it.
