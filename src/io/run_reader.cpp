@@ -160,11 +160,12 @@ State RunReader::sample(std::uint64_t k) const {
     for (std::size_t side = 0; side < std::min(of_walls.size(), state.walls.size()); ++side)
       state.walls[side].velocity = of_walls[side];
     for (const double bonds : observable("bonds", k, 1)) state.bonds = static_cast<std::uint64_t>(bonds);
-    if (scene_.effects.square_well) state.pairs_in_steps = {state.bonds};
-    // Of all steps of the run, which changes may bring in.
-    if (const auto extents = detail::extents_of(file_->get(), "/observables/pairs_in_steps/value"); extents.size() == 2)
-      for (const double pairs : observable("pairs_in_steps", k, extents[1]))
+    if (const auto extents = detail::extents_of(file_->get(), "/observables/pairs_in_steps/value"); extents.size() == 2) {
+      for (const double pairs : observable("pairs_in_steps", k, extents[1]))  // in all steps that changes may bring in
         state.pairs_in_steps.push_back(static_cast<std::uint64_t>(pairs));
+    } else if (scene_.effects.square_well) {
+      state.pairs_in_steps = {state.bonds};
+    }
     for (const double scale : observable("scale", k, 1)) state.scale = scale;
     for (const double displacement : observable("shear_displacement", k, 1)) state.shear_displacement = displacement;
     if (const std::vector<double> spins = observable("spin", k, count); !spins.empty())

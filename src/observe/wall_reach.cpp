@@ -84,7 +84,7 @@ Box reach_of_walls(const ObservedRun& run, const State& start) {
   }
   go_on_until(end);
   for (std::size_t w = 0; w < walls.size(); ++w)
-    if (walls[w]) edge_of(box, w) += (w % 2 == 1 ? 1.0 : -1.0) * walls[w]->furthest();
+    if (walls[w]) edge_of(box, w) += (is_upper_wall(w) ? 1.0 : -1.0) * walls[w]->furthest();
   return box;
 }
 

@@ -46,11 +46,7 @@ class ExactSource : public Playback::Source {
     }
     moment.scale = exact_.start.scale;
     moment.scale += scene.effects.growth_rate() * (time - exact_.start.time);
-    for (std::size_t side = 0; side < 4; ++side) {
-      const Replay::Side& now = replay_->sides()[side];
-      const double dt = time - now.time;
-      moment.sides[side] = now.position + (now.velocity + 0.5 * now.acceleration * dt) * dt;
-    }
+    for (std::size_t side = 0; side < 4; ++side) moment.sides[side] = replay_->wall_position(side, time);
     moment.collisions = collisions_;
     if (trails_) moment.trails = trails_->until(time);
   }

@@ -4,6 +4,7 @@
 
 #include "core/nearest_image.hpp"
 #include "scene/effect_traits.hpp"
+#include "scene/walls.hpp"
 
 #include <fmt/format.h>
 
@@ -11,13 +12,6 @@
 #include <cmath>
 
 namespace carom {
-
-namespace {
-
-constexpr std::size_t axis_of(std::size_t side) { return side / 2; }
-constexpr double sign_of(std::size_t side) { return side % 2 == 1 ? 1.0 : -1.0; }
-
-}  // namespace
 
 std::string why_no_replay(const Scene& scene) {
   if (!scene.changes.empty()) return "what acts changes during the run, which the event log does not hold";
@@ -45,16 +39,16 @@ Replay::Replay(const Scene& scene, const Disks& disks, const State& start, Veloc
   for (Eigen::Index i = 0; i < start.positions.cols(); ++i)
     flights_.push_back({start.positions.col(i), start.velocities.col(i), start.time});
   const Box& box = scene.box;
-  const std::array<double, 4> edges = {box.lower.x(), box.upper.x(), box.lower.y(), box.upper.y()};
   for (std::size_t side = 0; side < 4; ++side) {
     const WallProperties& wall = scene.effects.walls[side];
-    sides_[side].position = start.walls.size() == 4 ? start.walls[side].position : edges[side];
+    sides_[side].position = start.walls.size() == 4 ? start.walls[side].position : edge_of(box, side);
     sides_[side].velocity = wall.velocity.value_or(0.0);
     if (wall.mass && start.walls.size() == 4) sides_[side].velocity = start.walls[side].velocity;
     piston_mass_[side] = wall.mass.value_or(0.0);
-    if (wall.mass)
-      sides_[side].acceleration =
-          -sign_of(side) * wall.load.value_or(0.0) * box.lengths()[static_cast<int>(1 - axis_of(side))] / *wall.mass;
+    if (wall.mass) {
+      const double inward = wall.load.value_or(0.0) * box.lengths()[1 - axis_of_wall(side)] / *wall.mass;
+      sides_[side].acceleration = is_upper_wall(side) ? -inward : inward;
+    }
   }
   if (scene.effects.growth_rate() > 0.0) {
     rescale_every_ = std::max<std::uint64_t>(1, disks.count() / 2);  // as src/simulation/driven_engine.cpp does
@@ -97,7 +91,7 @@ void Replay::turn(std::size_t disk, double time, const Eigen::Vector2d& velocity
 
 /// The momentum that the disk is about to lose across the side goes to the piston.
 void Replay::push(std::size_t side, std::size_t disk, double time, const Eigen::Vector2d& velocity) {
-  const auto axis = static_cast<int>(axis_of(side));
+  const int axis = axis_of_wall(side);
   const double given = disks_->mass[disk] * (this->velocity(disk, time)[axis] - velocity[axis]);
   Side& piston = sides_[side];
   const double dt = time - piston.time;

@@ -50,6 +50,12 @@ bool equal_masses(const Scene& scene) {
   return true;
 }
 
+bool all_disks_are_equal(const Scene& scene) {
+  const std::vector<std::string> acting = scene.effects.acting();
+  const bool are_additive = std::find(acting.begin(), acting.end(), "non_additivity") == acting.end();
+  return equal_masses(scene) && radii_of(scene).equal() && are_additive;
+}
+
 void check_settings(const ObservableRequest& request, bool is_circle) {
   constexpr std::int64_t most_bins = 100'000;
   const std::string path = "observe." + request.name;
@@ -195,10 +201,7 @@ void check_observe(const Scene& scene) {
     if (!one_of(request.name, {"viscosity", "heat_conductivity"})) continue;
     if (const std::string_view why = what_spoils_transport(scene); !why.empty())
       refuse_observable(request, fmt::format("has no meaning here: {}", why));
-    const std::vector<std::string> acting = scene.effects.acting();
-    const bool is_additive = std::find(acting.begin(), acting.end(), "non_additivity") == acting.end();
-    const bool is_mixture = !equal_masses(scene) || !radii_of(scene).equal() || !is_additive;
-    if (request.name == "heat_conductivity" && is_mixture)
+    if (request.name == "heat_conductivity" && !all_disks_are_equal(scene))
       refuse_observable(request,
                         "is measured for disks of one mass and size only: in a mixture heat also goes with diffusion; "
                         "remove it, or make all disks equal");

@@ -3,6 +3,7 @@
 #include "core/oscillating_fall_time.hpp"
 #include "scene/checks.hpp"
 #include "scene/fixed_shapes.hpp"
+#include "scene/growth_room.hpp"
 #include "scene/number_keys.hpp"
 #include "scene/walls.hpp"
 
@@ -88,9 +89,9 @@ std::size_t faster_inward(const Effects& effects, std::size_t lower) {
   return velocity_of(effects.walls[lower]) >= -velocity_of(effects.walls[lower + 1]) ? lower : lower + 1;
 }
 
-/// Returns whether walls that come so close leave room for a disk: so that the number of its bounces, which goes as one over what
-/// is left, stays that of seconds. As for a disk that grows.
-bool leave_room(double gap, double diameter) { return gap > 0.0 && gap >= (1.0 + 0x1p-16) * diameter; }
+/// Returns the least gap between walls in which the number of a disk's bounces stays that of seconds, as where disks grow.
+double least_gap(double diameter) { return diameter / (1.0 - detail::room_left); }
+bool leave_room(double gap, double diameter) { return gap > 0.0 && gap >= least_gap(diameter); }
 
 /// Returns what ends the sentence about a gap that does not.
 const char* why_no_room(double gap, double diameter) {
@@ -122,7 +123,7 @@ void check_gap(const Scene& scene, int axis) {
   const double gap = scene.box.lengths()[axis] - closing * time;
   if (leave_room(gap, diameter)) return;
   const std::size_t wall = faster_inward(scene.effects, lower);
-  const double room = (scene.box.lengths()[axis] - (1.0 + 0x1p-16) * diameter) / closing;
+  const double room = (scene.box.lengths()[axis] - least_gap(diameter)) / closing;
   throw Refusal(
       path_of(wall),
       fmt::format("within a time of {:.6g} the moving walls would leave {:.6g} between {} and {}, but the largest disk is {:.6g} "

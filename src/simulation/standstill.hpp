@@ -40,8 +40,9 @@ class Standstill {
         smallest_(smallest),
         effects_(effects),
         own_rule_(own_rule),
-        by_collisions_({.first_mark = 8'192 + 32 * disks, .most = 5e11}),
-        by_all_({.first_mark = 16'384 + 64 * disks, .most = 1e12, .meeting = 1.0 / 64.0}) {
+        by_collisions_({.block_length = 500'000 + 50 * disks, .first_mark = 8'192 + 32 * disks, .most = 5e11}),
+        by_all_(
+            {.block_length = 1'000'000 + 100 * disks, .first_mark = 16'384 + 64 * disks, .most = 1e12, .meeting = 1.0 / 64.0}) {
     begin(engine);
   }
 
@@ -53,8 +54,6 @@ class Standstill {
     for (WallProperties& wall : lossless.walls) wall.restitution.reset();
     lossless.drag.reset();
     has_all_its_energy_ = !own_rule_ && detail::conserve_energy(lossless);
-    by_collisions_.block_length = 500'000 + 50 * disks_;
-    by_all_.block_length = 2 * by_collisions_.block_length;
     const Counts& counts = engine.counts();
     by_collisions_.begin({engine.now(), counts.pair, counts.pair});
     by_all_.begin({engine.now(), happenings(counts), counts.pair});
@@ -108,9 +107,9 @@ class Standstill {
       archive(block, block_end, mark, mark_at, pace, quickened);
     }
 
-    std::uint64_t block_length = 1;  ///< in which it is measured how far the fastest disk goes
-    std::uint64_t first_mark;        ///< where the pace is measured for the first time; then at twice the number each time
-    double most;                     ///< with as many more or fewer a run is left to come to its end: in a week or two
+    std::uint64_t block_length;  ///< in which it is measured how far the fastest disk goes
+    std::uint64_t first_mark;    ///< where the pace is measured for the first time; then at twice the number each time
+    double most;                 ///< with as many more or fewer a run is left to come to its end: in a week or two
     double meeting = std::numeric_limits<double>::infinity();  ///< share of collisions of pairs below which the number tells
     Point block{};                                             ///< where the block began
     std::uint64_t block_end = 0;                               ///< number
