@@ -65,8 +65,8 @@ void Domains<Impact, Layout, World>::count_collisions() {
   const std::uint64_t pairs = counts().pair;
   if (pairs > pair_limit_ || has_failed()) return void(counting_ = false);
   const double left = static_cast<double>(pair_limit_ - pairs), safe = left - 4.0 * std::sqrt(left) - 32.0;
-  // A rate that was far too high halves from part to part; that there are few of a few collisions says nothing.
-  if (part_ > 32.0 && static_cast<double>(pairs - counted_) < part_ / 4.0) pair_rate_ /= 2.0;
+  // A rate that was far too high halves from part to part, also where few are left: a part twice too long stays below the limit.
+  if (static_cast<double>(pairs - counted_) < part_ / 4.0) pair_rate_ /= 2.0;
   counted_ = pairs;
   part_ = std::max(safe, 0.0);
   if (window_end_ == longest_end_) {

@@ -231,6 +231,41 @@ TEST(Ranks, ExchangeOnceInAWindow) {
   EXPECT_LE(serving.first().exchanges, windows + shared.totals().numerics.list_rebuilds);
 }
 
+/// Three rows of disks fill the height of a box, so that far more collisions seem to come than do, when only few are left.
+TEST(Ranks, AreNotAskedAgainAndAgainWhereFarMoreCollisionsSeemedToCome) {
+  const Scene scene = parse_scene(R"(
+[box]
+x = [0.0, 4.62]
+y = [0.0, 2.0]
+boundary = { x = "periodic", y = "walls" }
+[[disks]]
+radius = 0.3333333333333333
+mass = 1.0
+positions = [[0.55, 0.3333333333333333], [1.65, 0.3333333333333333], [3.05, 0.3333333333333333], [4.05, 0.3333333333333333],
+             [0.6, 1.0], [1.96, 1.0], [2.9, 1.0], [3.93, 1.0],
+             [0.4, 1.6666666666666665], [1.9, 1.6666666666666665], [3.02, 1.6666666666666665], [4.23, 1.6666666666666665]]
+velocities = [[0.66, -0.34], [-0.51, -0.82], [0.48, -0.18], [0.1, -1.7], [0.07, 1.35], [0.55, 0.66],
+              [-0.02, -0.91], [0.0, -0.57], [-0.3, 1.48], [0.6, 0.96], [-0.82, 0.01], [-1.13, -1.6]]
+[collision]
+rule = "specular"
+[run]
+time = 1.0
+)");
+  ServingRanks serving(2);
+  std::uint64_t told = 0;
+  serving.first().on_the_way = [&](int, const std::string& bytes) { return ++told, bytes; };
+  Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+  shared.set_threads({.domains = 2, .halo = 4.4, .events_per_window = 0.6}, serving.first());
+  for (const double time : {0.0, 0.01, 0.1, 100.0}) {
+    alone.run_until(time, {.collisions = 110});
+    shared.run_until(time, {.collisions = 110});
+    expect_same(alone, shared, std::to_string(time));
+  }
+  // A rate halves in every part of a window in which nothing comes: a double that halves more often than 64 times is as good as
+  // zero.
+  EXPECT_LE(told, 64 * shared.thread_counts().windows);
+}
+
 TEST(Ranks, SayWhichOfThemCouldNotBegin) {
   ServingRanks serving(3);
   serving.first().on_the_way = [](int to, const std::string& bytes) {
