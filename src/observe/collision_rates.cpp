@@ -71,7 +71,13 @@ class CollisionRate final : public SavedObservable<CollisionRate> {
   void put(Measurement& found, std::string name, const Blocking& series, std::int64_t disks) const {
     Scalar scalar{.name = std::move(name), .unit = "1 / time"};
     if (disks > 0) series.fill(scalar, step_, 1.0 / static_cast<double>(disks));
-    if (!scalar.value) scalar.note = disks > 0 ? "nothing was measured" : "this species has no disks";
+    if (!scalar.value) {
+      scalar.note = disks > 0 ? "nothing was measured" : "this species has no disks";
+    } else if (*scalar.value == 0.0) {  // of which the error is not zero, but unknown
+      scalar.error.reset();
+      scalar.integrated_correlation_time.reset();
+      scalar.note = "no such pair of disks has collided";
+    }
     found.scalars.push_back(std::move(scalar));
   }
 

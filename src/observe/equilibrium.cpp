@@ -63,6 +63,11 @@ bool keeps_energy_of_positions(const Effects& effects) {
   return detail::any_acting(effects, &detail::EffectTraits::has_energy_of_disk_positions) && detail::conserve_energy(effects);
 }
 
+/// Whether nothing but collisions of disks makes disks of another start be like these in time.
+bool are_moved_by_collisions_alone(const Scene& scene) {
+  return scene.disk_count() > 1 && !temperature_fluctuates(scene.effects) && scene.effects.obstacles.empty();
+}
+
 }  // namespace
 
 std::string_view why_no_Z(const Effects& effects, bool detail::EffectTraits::*passed_over) {
@@ -120,6 +125,8 @@ std::string_view why_errors_are_lower_bounds(const Scene& scene, double collisio
 
 std::string note_on_errors(const Scene& scene, double collisions_per_disk) {
   std::string note(why_errors_are_of_one_start(scene));
+  if (note.empty() && collisions_per_disk == 0.0 && are_moved_by_collisions_alone(scene))
+    note = "no two disks have collided: another start may differ by more than the errors";
   if (const std::string_view why = why_errors_are_lower_bounds(scene, collisions_per_disk); !why.empty())
     note += (note.empty() ? "" : "; ") + std::string(why);
   return note;

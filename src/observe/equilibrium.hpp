@@ -38,7 +38,8 @@ namespace carom {
 /// - N disks that cannot pass each other: (N / 2 pi)^2, within which heat spreads among them.
 [[nodiscard]] std::string_view why_errors_are_lower_bounds(const Scene& scene, double collisions_per_disk);
 
-/// Returns the remark on the errors of all numbers of a run: why_errors_are_of_one_start() and why_errors_are_lower_bounds().
+/// Returns the remark on the errors of all numbers of a run: why_errors_are_of_one_start(), also because no two disks have
+/// collided, and why_errors_are_lower_bounds().
 [[nodiscard]] std::string note_on_errors(const Scene& scene, double collisions_per_disk);
 
 /// Returns whether the scene has equal disks so dense (packing fraction beyond 0.72) that they rattle in a crystal. Most of the

@@ -95,6 +95,15 @@ TEST(Equilibrium, ErrorsAreOfOneStartWhereEnergyIsConservedAndStoredInPlaces) {
   EXPECT_FALSE(falls_and([](Effects& e) { e.collision.restitution = 0.9; }));
 }
 
+TEST(Equilibrium, ErrorsAreOfOneStartWhereNoDisksHaveCollided) {
+  Scene scene = gas_scene(64, 0.3, Boundary::walls);
+  EXPECT_FALSE(note_on_errors(scene, 0.0).empty());
+  EXPECT_TRUE(note_on_errors(scene, 1.0).empty());
+  scene.effects.walls[0].temperature = 1.0;
+  EXPECT_TRUE(note_on_errors(scene, 0.0).empty()) << "the wall gives disks other velocities";
+  EXPECT_EQ(note_on_errors(gas_scene(1, 0.01, Boundary::periodic), 0.0), "") << "there is no other disk";
+}
+
 TEST(Equilibrium, ErrorsAreLowerBoundsWhereMassesExchangeEnergyMoreSlowlyThanBlocksLast) {
   Scene scene = mixture_scene(64, 0.3, Boundary::periodic);
   const auto is_lower_bound = [&](double mass, double collisions_per_disk) {

@@ -205,6 +205,22 @@ TEST(Observation, CatalogueFormatAndFilesAgree) {
   EXPECT_EQ(look(small_fluid(periodic)) + look(box), detail::known_observables.size());
 }
 
+/// Of no collisions the error is unknown, and not zero.
+TEST(Observation, SaysThatNoDisksHaveCollided) {
+  const std::string asked = "pressure = { every = 1e-7 }\ncollision_rate = { every = 1e-7 }";
+  const Observed o = observe(parse_scene(small_fluid(asked, "specular", "2e-6")), 1e-6);
+  EXPECT_EQ(o.totals.pair, 0U);
+  for (const char* name : {"Z", "reduced", "Z_rate"}) {
+    EXPECT_FALSE(o.scalar("pressure", name).value || o.scalar("pressure", name).error) << name;
+    EXPECT_EQ(o.scalar("pressure", name).note, "no pair of disks has collided") << name;
+  }
+  EXPECT_EQ(o.value("collision_rate", "rate"), 0.0);
+  EXPECT_FALSE(o.scalar("collision_rate", "rate").error);
+  EXPECT_EQ(o.scalar("collision_rate", "rate").note, "no such pair of disks has collided");
+  for (const Measurement& measured : o.measurements)
+    EXPECT_EQ(measured.note, "no two disks have collided: another start may differ by more than the errors");
+}
+
 TEST(Observation, TellsWhyANumberIsMissing) {
   const Observed o =
       observe(parse_scene(small_fluid("pressure = true\ncollision_rate = true\nvelocity_moments = true", "reversal")), 1.0);
