@@ -4,7 +4,7 @@
 
 namespace carom {
 
-/// A collision of two disks with its numbers as the event loop has them, where every instruction counts.
+/// A collision of two disks as the event loop records it: only numbers that it has already computed.
 struct alignas(16) CollisionRecord {
   double time;                                              ///< since the epoch of CollisionRecords
   std::int32_t slot_i, slot_j;                              ///< of the two disks; DiskTable has their ids

@@ -149,15 +149,15 @@ class Observation {
   /// or by results().
   void attach_on_thread(RunHooks& hooks);
 
-  /// In a loop of one's own, in place of attach() and run_schedule(): hands the observables what has happened since the call
-  /// before. The first call begins the measurement, at time 0 with no totals; from then on the events of the simulation are
-  /// recorded where observables follow collisions, and taken by this. The state goes to the observables of which a step is due
-  /// now, at k steps from time 0, k = 0, 1, 2, ...; a call between two steps hands on collisions alone. Call it at next_sample(),
-  /// and at the end. Throws std::logic_error where a step was passed over, or the measurement would begin later than at time 0;
-  /// after equilibrating call Simulation::reset_clock(). So it does where the program has changed the simulation since this was
-  /// made, by set_effects() and the like. Requires the simulation that this was made for.
+  /// Passes to the observables what has happened since the previous call. It is for programs with a loop of their own, in place
+  /// of attach() and run_schedule(). The first call begins the measurement, at time 0 with no totals; from then on the events of
+  /// the simulation are recorded where observables follow collisions, and taken by this. The state goes to the observables of
+  /// which a step is due now, at k steps from time 0, k = 0, 1, 2, ...; a call between two steps hands on collisions alone. Call
+  /// it at next_sample(), and at the end. Throws std::logic_error where a step was passed over, or the measurement would begin
+  /// later than at time 0; after equilibrating call Simulation::reset_clock(). So it does where the program has changed the
+  /// simulation since this was made, by set_effects() and the like. Requires the simulation that this was made for.
   void sample(Simulation& simulation);
-  /// The time at which sample() is due next: 0 before the first call; then infinite where no observable takes steps.
+  /// Returns the time at which sample() is due next: 0 before the first call; then infinite where no observable takes steps.
   [[nodiscard]] double next_sample() const;
 
   /// Writes the state of all observables. To be called at a SavingMoment.

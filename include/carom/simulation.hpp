@@ -1,5 +1,5 @@
 #pragma once
-// A scene brought to life: positions and velocities that move from event to event. The library's main door.
+// The simulation of a scene: positions and velocities that advance from event to event. The main class of the library.
 //
 //   carom::Simulation simulation = carom::make_simulation(carom::load_scene("box.toml"));
 //   simulation.run_until(5.0);
@@ -64,20 +64,20 @@ struct FixedStep {
   std::optional<double> stiffness = {};
 };
 
-/// Limits that end Simulation::run_until() before its time. A fixed-step method knows `collisions` alone, and ends after the step
-/// that reaches them.
+/// Limits that end Simulation::run_until() before its time. A fixed-step method supports `collisions`, and ends after the step
+/// that reaches them, and `proceed`.
 struct RunLimits {
   static constexpr auto none = std::numeric_limits<std::uint64_t>::max();
 
   std::uint64_t collisions = none;  ///< of pairs, since the zero of time: Counts::pair
   /// Of any kind, since the zero of time: Counts::events(). Brownian redraws of one time are made together.
   std::uint64_t events = none;
-  /// Called after every event; the run ends at the event for which it is true. It may look at the simulation, which stands at the
-  /// event, and change it as a program may between two calls of run_until(). With it the engine is entered anew for every event,
-  /// which takes several times as long.
+  /// Called after every event; the run ends at the event for which it returns true. It may read the simulation, whose time is
+  /// that of the event, and change it as a program may between two calls of run_until(). The engine then starts anew for every
+  /// event, which takes several times as long.
   std::function<bool(const Event& event)> stop_when = {};
-  /// Called some twenty times a second, between two events; where it returns false, the run ends there as `interrupted`. It is
-  /// not to change the simulation. It costs less than a thousandth of the time.
+  /// Called some twenty times a second, between two events; where it returns false, the run ends there as `interrupted`. It
+  /// must not change the simulation. It costs less than a thousandth of the time.
   std::function<bool()> proceed = {};
 };
 
@@ -87,7 +87,7 @@ struct SamplingGrid {
   /// At k * step, k = 0, 1, 2, ...; every collision up to then has been handed on. Where step is a multiple of run.sample_every,
   /// or of the length of a block, to rounding, these are the scene's own samples, to the last bit.
   std::function<void(std::uint64_t k, const State& state, const Totals& totals)> sample;
-  /// The state may be without all but time, velocities, scale and walls.
+  /// Whether `sample` reads no more of the state than time, velocities, scale and walls; the rest may then be absent.
   bool velocities_alone = false;
 };
 
@@ -104,30 +104,30 @@ class Simulation {
   Simulation& operator=(Simulation&&) noexcept;
   ~Simulation();
 
-  /// The scene as it is now: changes that have been made are in its effects, and in its list of changes no more.
+  /// Returns the scene as it is now: its effects include the changes that were made, and its list has only those still to come.
   [[nodiscard]] const Scene& scene() const;
-  /// The scene as it was given, with every effect that acts before its last change is made or after it: what holds for the whole
-  /// run. It is scene() where the scene has no changes.
+  /// Returns the scene as given, with every effect that acts at any time of the run. It equals scene() where there are no
+  /// changes.
   [[nodiscard]] const Scene& whole_scene() const;
   [[nodiscard]] const Disks& disks() const;
   [[nodiscard]] const std::string& engine()
       const;  ///< the name of the engine that the catalogue chose, or of a fixed-step method
   [[nodiscard]] std::optional<double> time_step() const;  ///< dt of a fixed-step method; nothing where events are exact
   [[nodiscard]] std::optional<double> stiffness() const;  ///< that was given to a fixed-step method
-  /// Why that engine, in half a sentence: "the scene asks for drag"; empty for a fixed-step method.
+  /// Returns why this engine was chosen, as a clause: "the scene asks for drag"; empty for a fixed-step method.
   [[nodiscard]] const std::string& engine_reason() const;
-  /// Memory that the engine or method holds, without disks().
+  /// Returns the memory of the engine or method in bytes, without disks().
   [[nodiscard]] std::size_t bytes() const;
 
   [[nodiscard]] double time() const;
-  /// The counts and sums of all events since the start of the measured run. Rounding the sums takes about a microsecond.
+  /// Returns the counts and sums of all events since the start of the measured run. Rounding the sums takes about a microsecond.
   [[nodiscard]] Totals totals() const;
-  /// The counts of totals() alone, at no cost.
+  /// Returns the counts of totals(), in constant time.
   [[nodiscard]] const Counts& counts() const;
 
-  /// The exact state at time(), to rounding. Reading it never changes what follows.
+  /// Returns the exact state at time(), to rounding. Reading it never changes what follows.
   [[nodiscard]] State state() const;
-  /// Writes the state into `state` and uses its memory again: for loops that look often.
+  /// Writes the state into `state` and uses its memory again: for loops that read it often.
   void state(State& state) const;
 
   /// Processes every event up to and including `time`. Requires time >= this->time(); an earlier time does nothing. On the way
@@ -154,15 +154,15 @@ class Simulation {
   /// made.
   std::optional<Event> step(double until = std::numeric_limits<double>::infinity());
 
-  /// Changes what acts on the disks, while the simulation runs: from now on scene().effects is what is given. All
-  /// effects can be changed, come and go. The simulation goes on with the bits of make_simulation(scene(), state(), engine) for
-  /// the scene as it is then; its time, its totals and its random streams go on where they were. Walls that are told to stand
-  /// still stand where they are, and scene().box is moved there; disks that stop growing keep their size, and the radii of
-  /// scene() are multiplied. When each disk last collided (Collision::elastic_below) is forgotten. A kick of the thermostat that
-  /// was to come comes when it was to come, unless the rate is another. Takes the time of some hundred events per disk. Throws
-  /// SceneError with the sentence of check() where the scene, as it would begin now, is wrong: where an obstacle is put upon a
-  /// disk, for instance; std::invalid_argument where the engine that was asked for does not cover it; std::logic_error for a
-  /// fixed-step method, and within a hook of run_schedule(). Then nothing is changed.
+  /// Changes what acts on the disks, while the simulation runs: from now on scene().effects is what is given. All effects can be
+  /// changed, added and removed, except the circle of a circular box, which stays. The simulation goes on with the bits of
+  /// make_simulation(scene(), state(), engine) for the scene as it is then; its time, its totals and its random streams go on
+  /// where they were. A wall whose velocity becomes zero stays at its present position, and scene().box is moved there; disks
+  /// that stop growing keep their size, and the radii of scene() are multiplied. When each disk last collided
+  /// (Collision::elastic_below) is forgotten. The next redraw of the thermostat keeps its time, unless the rate changes. Takes
+  /// the time of some hundred events per disk. Throws SceneError with the sentence of check() where the scene, as it would begin
+  /// now, is wrong: where an obstacle is put upon a disk, for instance; std::invalid_argument where the engine that was asked for
+  /// does not cover it; std::logic_error for a fixed-step method, and within a hook of run_schedule(). Then nothing is changed.
   void set_effects(const Effects& effects);
 
   /// Gives all disks these velocities, one column per disk, and where they spin and `spins` is not empty these spins. All else
@@ -174,42 +174,42 @@ class Simulation {
   /// Returns how many times set_effects(), set_velocities() and set_collision_rule() have changed the simulation.
   [[nodiscard]] std::uint64_t changes_by_program() const;
 
-  /// Has two disks that meet do what `rule` says, in the place of all that scene().effects.collision says; an empty one brings
-  /// that back. All else that disks meet is what it was, the edges of wells too. The simulation goes on as under set_effects().
-  /// The slow path: the function is called at every collision of a pair, from the loop of an engine with every effect. It is not
-  /// to ask the simulation anything. What it throws comes out of the run, which stands before that collision then; so does a
-  /// std::domain_error where the velocities are not finite, or leave the disks approaching each other. Observables that follow
-  /// collisions know the rules of scenes alone. Throws std::invalid_argument where disks grow, or the engine that was asked for
+  /// Replaces the collision rule of scene().effects.collision by `rule`; an empty function restores it. Collisions with walls and
+  /// obstacles and the edges of wells stay as they are. The simulation goes on as under set_effects(). This is the slow path: the
+  /// engine with every effect calls the function at every collision of a pair. The function must not call the simulation. What it
+  /// throws comes out of the run, which then stands before that collision; so does a std::domain_error where the velocities are
+  /// not finite, or leave the disks approaching each other. Observables that follow collisions support the rules of scenes alone.
+  /// Throws std::invalid_argument where disks grow, or the engine that was asked for
   /// does not call such a rule; std::logic_error as set_effects().
   void set_collision_rule(CollisionFunction rule);
-  /// Whether set_collision_rule() has given a rule.
+  /// Returns whether a rule of set_collision_rule() acts.
   [[nodiscard]] bool has_collision_rule() const;
 
-  /// Runs on several cores from now on, or on one again. No bit of what follows depends on it. What cannot be shared out, as
-  /// single steps, is done by one core in between; the first run after that shares the disks out again, which takes the time of
+  /// Runs on several cores from now on, or on one again. No bit of what follows depends on it. One core does in between what
+  /// cannot be shared out, such as single steps; the first run after that shares the disks out again, which takes the time of
   /// some events per disk. Throws std::invalid_argument where a number is not as carom/threads.hpp says, or several threads are
   /// asked for and why_not_threads() has a reason against them. Where an effect keeps it on one core until a change of the scene,
   /// it is shared out after that change.
   void set_threads(const Threads& threads);
-  /// Does so on that many threads of each of the ranks, which must outlive the simulation (carom/ranks.hpp). This is rank 0; the
+  /// Runs on that many threads of each of the ranks, which must outlive the simulation (carom/ranks.hpp). This is rank 0; the
   /// others are in serve_ranks(). Throws std::runtime_error too where one of them has no memory for it.
   void set_threads(const Threads& threads, Ranks& ranks);
   /// Returns how many threads (of each rank) compute it now: those of set_threads(), but 1 while an effect acts that does not run
   /// on several.
   [[nodiscard]] std::size_t threads() const;
-  /// Returns why this simulation runs on one core only, in half a sentence; empty where it can be shared out, now or after one of
+  /// Returns why this simulation runs on one core only, as a clause; empty where it can be shared out, now or after one of
   /// the scene's changes.
   [[nodiscard]] std::string why_not_threads() const;
   /// Returns what sharing it out has taken so far.
   [[nodiscard]] ThreadCounts thread_counts() const;
 
-  /// Makes now the zero of time and forgets all totals. The state stays. In a scene with run.equilibrate no change is made
-  /// before.
+  /// Sets the time and all totals to zero; the state stays. In a scene with run.equilibrate, the scene's changes are made only
+  /// after this call.
   void reset_clock();
 
-  /// From now on every collision is appended to an internal log, until taken.
+  /// Turns the event log on or off: while it is on, every collision is appended, until take_events().
   void record_events(bool on);
-  /// The collisions since the last call, in order of time; they are removed from the log.
+  /// Returns the collisions since the last call, in order of time, and removes them from the log.
   [[nodiscard]] std::vector<Event> take_events();
   /// Puts the events in the place of what `events` held and uses its memory again.
   void take_events(std::vector<Event>& events);
@@ -218,8 +218,9 @@ class Simulation {
   /// program acts, and nothing but events changes velocities.
   [[nodiscard]] bool supports_collision_records() const;
 
-  /// Compares the engine's plan with what an exhaustive search finds. Empty when all is well; else one sentence per
-  /// fault. A pair that overlaps is one where it does so by more of its contact distance than `tolerated_overlap` and rounding.
+  /// Compares the planned events of the engine with those that an exhaustive search finds. Returns one sentence per fault, and
+  /// nothing where there is none. A pair overlaps where it does so by more of its contact distance than `tolerated_overlap` and
+  /// rounding.
   /// O(N^2) for N <= 2000, O(N) beyond.
   [[nodiscard]] std::vector<std::string> check_invariants(double tolerated_overlap = 0.0) const;
 
@@ -258,8 +259,8 @@ Simulation make_simulation(const Scene& scene, const std::string& engine = "auto
 /// overlap: those that do and approach each other collide at once.
 Simulation make_simulation(const Scene& scene, const State& start, const std::string& engine = "auto");
 
-/// The scene advanced by a fixed-step method in place of exact events, through the same door: states between two steps are those
-/// of the last one moved on, Totals::pair counts every change of a pair's velocities, Totals::other the steps, and a limit of
+/// Makes a simulation that advances the scene by a fixed-step method in place of exact events. A state between two steps is that
+/// of the last step, moved on. Totals::pair counts every change of a pair's velocities, Totals::other the steps, and a limit of
 /// collisions ends a run after the step that reaches it. Throws as above, and std::invalid_argument where there is no such method
 /// or dt is not positive, finite and short enough for positions to stay finite; where a stiffness is given to a method without
 /// springs, is not positive and finite, makes dt unstable, or would let the fastest disks of the start pass through each other or
@@ -267,21 +268,20 @@ Simulation make_simulation(const Scene& scene, const State& start, const std::st
 Simulation make_simulation(const Scene& scene, const FixedStep& step);
 Simulation make_simulation(const Scene& scene, const State& start, const FixedStep& step);
 
-/// A simulation as it was when Simulation::save() wrote it: whatever happens from there on happens to the last bit as it would
-/// have happened there. `scene` is the one with which that one was made, or what Simulation::scene() was when it was saved;
-/// title, run, output and observables may differ, but for the seed. A collision rule of the program cannot be saved:
-/// set_collision_rule() must give it again before anything runs. Throws SceneError where check(scene) does, or the scene is
-/// another one, and std::runtime_error where the stream holds something else, the work of another build of the library, less than
-/// was written, or bytes that have changed since.
+/// Returns the simulation that Simulation::save() wrote. It continues to the same bits. `scene` is the one with which that one
+/// was made, or what Simulation::scene() was when it was saved; title, run, output and observables may differ, but for the seed.
+/// A collision rule of the program cannot be saved: set_collision_rule() must give it again before anything runs. Throws
+/// SceneError where check(scene) does, or the scene is another one, and std::runtime_error where the stream holds something else,
+/// the work of another build of the library, less than was written, or bytes that have changed since.
 Simulation restore_simulation(const Scene& scene, std::istream& in);
 
-/// "naive", "naive-edge", "guarded", "grid", "backtrack", "swept", "soft"
+/// Returns the names of the fixed-step methods: "naive", "naive-edge", "guarded", "grid", "backtrack", "swept", "soft".
 std::vector<std::string> fixed_step_names();
 
-/// "fast", "general", "textbook", "textbook-float", ...: the engines, in the order in which "auto" prefers them.
+/// Returns the names of the engines, in the order in which "auto" prefers them: "fast", "general", "textbook", ...
 std::vector<std::string> engine_names();
 
-/// The names of the engines that can run a scene, in the order of engine_names(). Draws no start. Throws SceneError where
+/// Returns the names of the engines that can run a scene, in the order of engine_names(). Draws no start. Throws SceneError where
 /// check(scene) does.
 std::vector<std::string> engines_covering(const Scene& scene);
 
@@ -293,9 +293,10 @@ struct Progress {
   bool equilibrating = false;  ///< still in the part before the clock is reset
 };
 
-/// The last k of the samples of a run that is limited by time: the largest k whose sample is not after run.time, where a time
-/// that is a multiple of sample_every, or of the length of a block, to rounding counts as one. With sample_every_collisions, of a
-/// run that is limited by collisions: collisions / sample_every_collisions. 0 where the one or the other is absent.
+/// Returns the index k of the last sample of a run that is limited by time: the largest k whose sample is not after run.time,
+/// where a time that is a multiple of sample_every, or of the length of a block, to rounding counts as one. With
+/// sample_every_collisions, of a run that is limited by collisions: collisions / sample_every_collisions. 0 where the one or the
+/// other is absent.
 std::uint64_t last_sample(const Run& run);
 
 /// A moment between two events at which a run can be saved.
@@ -312,26 +313,25 @@ struct RunHooks {
   /// that has several such collisions leaves all k but the last out).
   std::function<void(std::uint64_t k, const State& state)> sample;
   std::function<void(std::span<const Event> events)> events;  ///< batches of collisions, in order
-  /// Collisions of pairs with what came before them, in order, a few at a time and all up to a sample before it; far cheaper than
-  /// to follow events. The simulation may be in the middle of an event, and is not to be asked anything. Requires
-  /// Simulation::supports_collision_records().
+  /// Collisions of pairs with positions and velocities before them, in order, a few at a time; those up to a sample come before
+  /// it. This is far cheaper than to follow events. The simulation may be in the middle of an event, and must not be called.
+  /// Requires Simulation::supports_collision_records().
   std::function<void(const CollisionRecords& collisions)> collisions;
   /// Returns the memory for the next records, so that `collisions` can keep them without a copy. It is called after each call of
-  /// `collisions`, which gets no more records than there is room for. Where it is not there, or returns none, memory is used
-  /// again.
+  /// `collisions`, which gets no more records than there is room for. Without it, or where it returns an empty span, the records
+  /// are valid only during the call.
   std::function<std::span<CollisionRecord>()> room_for_records;
   std::function<void(const Progress& progress)> block;  ///< after about every collision per disk, at collisions
   std::vector<SamplingGrid> grids;                      ///< beside the scene's own samples; of equal steps the first comes first
   /// Just before (false) and just after (true) one of the scene's changes is made.
   std::function<void(bool made)> change;
   std::function<bool(const Progress& progress)> proceed;  ///< several times a second; false stops the run
-  /// Called after every collision of the measured run, before it is handed on; the run ends at the collision for which it is
-  /// true, the same one on every machine. With it the engine is entered anew for every event, which takes several times as long.
-  /// Not for fixed-step methods.
+  /// Called after every collision of the measured run, before it is handed on; the run ends at the collision for which it returns
+  /// true, the same one on every machine. The engine then starts anew for every event, which takes several times as long. Not for
+  /// fixed-step methods.
   std::function<bool(const Event& event)> stop_when;
   std::uint64_t verify_every = 0;  ///< events from one check_invariants() to the next; 0 for no checks
-  /// Every 20,000 events, or 2,000 where they are recorded, after all that has happened so far was handed on; and when the run
-  /// ends.
+  /// Called every 20,000 events, or 2,000 where they are recorded, after all events so far were handed on; and when the run ends.
   std::function<void(const SavingMoment& moment)> checkpoint;
   /// The bytes that SavingMoment::save() wrote: the schedule goes on from there, without `start`. Requires the grids of then,
   /// in their order; others may follow, or may have followed, and are taken up at the next of their times. Where the bytes are
@@ -346,7 +346,7 @@ struct RunResult {
   double loop_seconds = 0.0;        ///< in the event loop of the measured run
   bool measured = true;             ///< false where the run ended while it was still equilibrating
   std::uint64_t verified = 0;       ///< checks of the invariants, the last of them at the end
-  std::vector<std::string> faults;  ///< of the last of them, or what is not finite; the run has ended there
+  std::vector<std::string> faults;  ///< found by the last check, or what is not finite; the run has ended there
   std::string blocked_by = {};      ///< why a change could not be made, where that has ended the run
 };
 

@@ -77,10 +77,10 @@ inline constexpr std::int32_t thermostat_event = -500;
 
 /// One collision in the event log.
 struct Event {
-  double time = 0.0;                                   ///< since the start of the measured run, rounded to double
-  double time_remainder = 0.0;                         ///< exact time minus `time`; their unevaluated sum has twice the digits
-  std::int32_t disk = 0;                               ///< id of the disk, the lower id of a pair
-  std::int32_t partner = 0;                            ///< the higher id of a pair, or a Wall, or first_obstacle - k
+  double time = 0.0;            ///< since the start of the measured run, rounded to double
+  double time_remainder = 0.0;  ///< exact time minus `time`; their unevaluated sum has twice the digits
+  std::int32_t disk = 0;        ///< id of the disk, the lower id of a pair
+  std::int32_t partner = 0;     ///< the higher id of a pair, or a Wall, or first_obstacle - k, or thermostat_event
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< velocity of `disk` just after
   Eigen::Vector2d partner_velocity =
       Eigen::Vector2d::Zero();  ///< velocity of `partner` just after; zero for a wall or an obstacle
@@ -102,16 +102,17 @@ struct Numerics {
 
 /// Numbers of events since the start of the measured run, by kind. Engines always keep them, at no measurable cost.
 struct Counts {
-  std::uint64_t pair = 0;        ///< collisions of two disks
-  std::uint64_t wall = 0;        ///< collisions with a wall
-  std::uint64_t other = 0;       ///< bookkeeping without physics: cell crossings of an engine, steps of a fixed-step method
+  std::uint64_t pair = 0;  ///< collisions of two disks
+  std::uint64_t wall = 0;  ///< collisions with a wall
+  std::uint64_t other =
+      0;  ///< bookkeeping without physics: neighbourhoods or cells that disks have left, steps of a fixed-step method
   std::uint64_t stale = 0;       ///< stale predictions: another collision had overtaken them
   std::uint64_t obstacle = 0;    ///< collisions with an obstacle
   std::uint64_t well = 0;        ///< passages of the edges of square wells and of steps of the potential, and bounces there
   std::uint64_t thermostat = 0;  ///< velocities redrawn by a thermostat, by tumbles or by Brownian motion
   Numerics numerics;
 
-  /// The number of all events that change a velocity: collisions with disks, walls and obstacles, edges of wells, and kicks.
+  /// The number of all events that change a velocity: collisions with disks, walls and obstacles, edges of wells, and redraws.
   [[nodiscard]] std::uint64_t events() const { return pair + wall + obstacle + well + thermostat; }
 };
 

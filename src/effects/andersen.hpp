@@ -1,6 +1,6 @@
 #pragma once
-// Andersen's thermostat (J. Chem. Phys. 72, 2384 (1980)): now and then a disk, any of them, forgets how it moved and draws its
-// velocity from the Maxwell distribution, as if a molecule of a heat bath had hit it. Its events are a Poisson process: N disks
+// Andersen's thermostat (J. Chem. Phys. 72, 2384 (1980)): now and then a disk, chosen at random, redraws its velocity from
+// the Maxwell distribution, as if a molecule of a heat bath had hit it. Its events are a Poisson process: N disks
 // that each have them at a rate wait an exponential time at N times that rate for the next event of any.
 //
 // Event number n draws everything from a stream of its own, so that it is the same whatever engine runs the scene and wherever

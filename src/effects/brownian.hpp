@@ -1,6 +1,6 @@
 #pragma once
 // Brownian dynamics of hard disks by events (Scala, Voigtmann & De Michele, J. Chem. Phys. 126, 134109 (2007)): at equal steps dt
-// all disks together forget how they moved and draw their velocities from the Maxwell distribution; in between they fly and
+// all disks together redraw their velocities from the Maxwell distribution; in between they fly and
 // collide. Over times much longer than dt a free disk diffuses with D = kT dt / (2 m).
 //
 // Redraw number n draws everything from a stream of its own, disk after disk.

@@ -1,6 +1,6 @@
 #pragma once
-// How disks move between events: uniformly accelerated, all alike. Two disks never notice it from each other, since it cancels in
-// their relative motion; only what stands still and the edges of cells do.
+// How disks move between events: uniformly accelerated, all alike. It cancels in the relative motion of two disks, and acts only
+// against what stands still and against the edges of cells.
 
 #include "core/vec2.hpp"
 

@@ -1,8 +1,8 @@
 #pragma once
 // The edges of the box as the textbook engine sees them: which image of a disk is met, how it moves, and what becomes of a disk
 // that leaves the box. On periodic axes images are whole box lengths apart and move alike. In a sheared box (effects/shear.hpp)
-// those above are displaced along x and faster than the disk itself; no wall is there, but a disk that comes to an edge is told
-// so.
+// those above are displaced along x and faster than the disk itself; no wall is there, but a disk that comes to an edge gets an
+// event.
 
 #include "core/domain.hpp"
 #include "core/fall_time.hpp"

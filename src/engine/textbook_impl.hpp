@@ -317,7 +317,7 @@ std::vector<std::string> TextbookEngine<Real>::check_invariants(double tolerated
       if (overlap > (Real(tolerated_overlap) + tolerance) * sigma + rounding)
         faults.push_back(fmt::format("disks {} and {} overlap by {}", i, j, static_cast<double>(overlap)));
       const Real meeting = pair_time(i, j, nearest);
-      // Cells are as wide as disks become in this epoch; whoever grows into another later is found when the next begins.
+      // Cells are as wide as disks become in this epoch; disks that grow into another later are found when the next begins.
       if (meeting < std::min({next_of(i).time, next_of(j).time, epoch_length_}))
         faults.push_back(fmt::format("disks {} and {} meet before either has an event planned", i, j));
     }

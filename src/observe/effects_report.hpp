@@ -58,7 +58,7 @@ struct GrowthReport {
 struct ShearReport {
   std::optional<double> strain;                     ///< rate * time; empty where a change has set another rate
   double energy = 0.0;                              ///< given to the disks
-  std::optional<double> pressure_xy_of_collisions;  ///< sum of r_x J_y / (area time); empty at time 0
+  std::optional<double> pressure_xy_of_collisions;  ///< sum of r_y J_x / (area time); empty at time 0
   std::optional<double> pressure_xy_of_flight;      ///< mean over samples of sum m u_x u_y / area, u relative to the flow
   std::optional<double> viscosity;                  ///< - pressure_xy / rate
 };

@@ -39,7 +39,7 @@ class DrivenEngine final : public WrappedEngine {
     return run(target, pair_limit, event_limit, false);
   }
   [[nodiscard]] bool idle() const override;
-  /// Or one of them fills the box.
+  /// Returns whether the engine has stalled, or a disk fills the box.
   [[nodiscard]] bool jammed() const override { return filled_ || engine_->jammed(); }
   [[nodiscard]] std::optional<StopReason> ended() const override {
     return grown_ ? std::optional(StopReason::grown) : std::nullopt;
@@ -95,10 +95,10 @@ class DrivenEngine final : public WrappedEngine {
   double packing_fraction_;    ///< at scale 1
   Instant end_ = forever;      ///< when end_scale_ is reached
   double full_scale_ = 0.0;    ///< at which the largest disk fills the box
-  Instant full_ = forever;     ///< when that is reached
-  bool filled_ = false;        ///< it is
-  bool grown_ = false;         ///< the end is reached
-  bool at_end_scale_ = false;  ///< it was the packing fraction's
+  Instant full_ = forever;     ///< time at which a disk fills the box
+  bool filled_ = false;        ///< a disk fills the box
+  bool grown_ = false;         ///< the packing fraction or pressure of growth.until is reached
+  bool at_end_scale_ = false;  ///< that was the packing fraction
   bool keeps_energy_;          ///< velocities are rescaled
   std::uint64_t between_measurements_;  ///< collisions of pairs from one look at the gas to the next
   std::uint64_t measure_at_ = never;    ///< Totals::pair at which velocities are rescaled and the pressure is measured

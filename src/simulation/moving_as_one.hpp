@@ -1,5 +1,5 @@
 #pragma once
-// Tells a run that waits for collisions of disks that have all but lost their energy, and fly along together. A common motion
+// Detects a run that waits for collisions of disks that have all but lost their energy, and fly along together. A common motion
 // never cools. Against it relative speeds become so small that ever more events pass from one collision to the next.
 
 #include "core/all_events.hpp"
@@ -19,6 +19,7 @@
 
 namespace carom::detail {
 
+/// Detects that inelastic disks fly together 2^14 times as fast as against each other.
 class MovingAsOne {
  public:
   /// The run begins, or goes on, where `engine` is. It is looked at after every so many collisions of pairs, at which it stops

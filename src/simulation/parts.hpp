@@ -1,5 +1,5 @@
 #pragma once
-// What a Simulation is made of; seen by the code of this room alone.
+// What a Simulation is made of; seen by the code of this folder alone.
 
 #include <carom/ranks.hpp>
 #include <carom/simulation.hpp>

@@ -1,7 +1,7 @@
 #pragma once
-// Tells a run that goes nowhere. Disks that jam need not collide at one instant: where two times differ by their last digit only,
-// every event may move the clock by that digit, and a run would take years for the next thousandth of a unit of time. Or events
-// may follow each other ever faster, so that the clock converges to a time before the end of the run.
+// Detects a run that goes nowhere. Disks that jam need not collide at one instant: where two times differ by their last digit
+// only, every event may move the clock by that digit, and a run would take years for the next thousandth of a unit of time. Or
+// events may follow each other ever faster, so that the clock converges to a time before the end of the run.
 //
 // Such a run has to end at the same event on any number of cores, whoever looks on. So it is looked at where numbers of
 // collisions of pairs are reached, which every engine stops at exactly. Numbers of all that happens decide where hardly any of it
@@ -31,6 +31,7 @@ struct RunEnd {
   std::uint64_t collisions = std::numeric_limits<std::uint64_t>::max();
 };
 
+/// Detects a run whose time practically no longer advances.
 class Standstill {
  public:
   /// The run begins, or goes on, where `engine` is. `smallest`: the smallest radius of the `disks`, which to find takes longer
@@ -86,7 +87,7 @@ class Standstill {
     std::uint64_t pairs = 0;
   };
 
-  /// A run as one of the two numbers grows.
+  /// The progress of a run, measured by one of two numbers: collisions of pairs, or all events and epochs.
   struct Course {
     /// The number at which something is due, the same wherever the run began.
     [[nodiscard]] std::uint64_t next() const { return std::min(block_end, mark_at); }

@@ -15,8 +15,8 @@ enum ExitCode : int {
   exit_done = 0,
   exit_failed = 1,         ///< failed while running
   exit_usage = 2,          ///< the command line, the scene or the place for the results is wrong; nothing was run
-  exit_invalid_state = 3,  ///< disks overlap
-  exit_check_failed = 4,   ///< a physics check failed
+  exit_invalid_state = 3,  ///< disks overlap by more than rounding, or another invariant is broken
+  exit_check_failed = 4,   ///< a check of validate, hardcases, verify or bench failed
   exit_interrupted = 130,  ///< stopped by a signal; what was done until then is saved
 };
 

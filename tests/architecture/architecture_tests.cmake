@@ -2,7 +2,7 @@
 set(check_includes ${CMAKE_CURRENT_SOURCE_DIR}/architecture/check_includes.cmake)
 add_test(NAME architecture.IncludeArrowsPointDown COMMAND ${CMAKE_COMMAND} -D SOURCE_DIR=${PROJECT_SOURCE_DIR} -P ${check_includes})
 
-# The check itself sees an upward arrow, one from slice to slice, a public header that looks inside, and a folder that is no room.
+# The check itself sees an upward arrow, one from slice to slice, a public header that looks inside, and a folder that is no layer.
 set(faulty ${CMAKE_CURRENT_BINARY_DIR}/faulty_tree)
 file(WRITE ${faulty}/src/core/upward.hpp "#include <cmath>\n#include \"engine/textbook.hpp\"\n")
 file(WRITE ${faulty}/src/engine/textbook.hpp "#include <carom/state.hpp>\n#include \"core/upward.hpp\"\n")
@@ -13,7 +13,7 @@ file(WRITE ${faulty}/src/studies/two/of_one.hpp "#include \"studies/one/of_all.h
 file(WRITE ${faulty}/include/carom/open.hpp "#include <carom/state.hpp>\n#include <engine/textbook.hpp>\n")
 add_test(NAME architecture.UpwardArrowIsFound COMMAND ${CMAKE_COMMAND} -D SOURCE_DIR=${faulty} -P ${check_includes})
 set_tests_properties(architecture.UpwardArrowIsFound PROPERTIES PASS_REGULAR_EXPRESSION
-  "open.hpp: includes engine/textbook.hpp.*old.cpp: no room.*core/upward.hpp: includes engine/textbook.hpp, but core may not use engine\n.*of_one.hpp: includes studies/one/of_all.hpp, but studies/two may not use studies/one\n")
+  "open.hpp: includes engine/textbook.hpp.*old.cpp: no layer.*core/upward.hpp: includes engine/textbook.hpp, but core may not use engine\n.*of_one.hpp: includes studies/one/of_all.hpp, but studies/two may not use studies/one\n")
 set_tests_properties(architecture.IncludeArrowsPointDown architecture.UpwardArrowIsFound PROPERTIES LABELS quick)
 
 # No header includes itself, and the check sees one that does so through another.

@@ -1,10 +1,10 @@
-# Arrows between rooms point down only: reads every #include below SOURCE_DIR/src and SOURCE_DIR/include and fails with
+# Arrows between layers point down only: reads every #include below SOURCE_DIR/src and SOURCE_DIR/include and fails with
 # one line for each that the table does not allow.
 #
 #   cmake -D SOURCE_DIR=<checkout> -P tests/architecture/check_includes.cmake
 cmake_minimum_required(VERSION 3.25)
 
-# Room by room, what its files may include besides their own room. Read with docs/architecture.md.
+# Layer by layer, what its files may include besides their own layer. Read with docs/architecture.md.
 set(core_may_use nothing)
 set(text_may_use nothing)
 set(queue_may_use core)
@@ -36,7 +36,7 @@ set(app_may_use ${slices} studies terminal runner pages io live observe theory s
 set(python_may_use ${slices} studies terminal runner pages io observe theory simulation scene text core)
 set(public_may_use nothing)  # include/carom/: the installed headers see nothing of src/
 
-# The room that a public header speaks for. One that is not named here is for the program and for other projects alone.
+# The layer that a public header speaks for. One that is not named here is for the program and for other projects alone.
 set(room_of_carom/io/output_error.hpp io)
 set(room_of_carom/io/run_reader.hpp io)
 set(room_of_carom/pages/page.hpp pages)
@@ -60,12 +60,12 @@ set(faults "")
 file(GLOB_RECURSE files RELATIVE ${SOURCE_DIR} ${SOURCE_DIR}/src/*.[ch]pp ${SOURCE_DIR}/include/*.[ch]pp)
 list(SORT files)
 foreach(file IN LISTS files)
-  string(REGEX REPLACE "^src/(studies/[^/]+|[^/]+)/.*" "\\1" room "${file}")
+  string(REGEX REPLACE "^src/(studies/[^/]+|[^/]+)/.*" "\\1" layer "${file}")
   if(file MATCHES "^include/")
-    set(room public)
+    set(layer public)
   endif()
-  if(NOT DEFINED ${room}_may_use)
-    string(APPEND faults "${file}: no room of the architecture; a new room needs a line in ${CMAKE_CURRENT_LIST_FILE}\n")
+  if(NOT DEFINED ${layer}_may_use)
+    string(APPEND faults "${file}: no layer of the architecture; a new layer needs a line in ${CMAKE_CURRENT_LIST_FILE}\n")
     continue()
   endif()
   file(STRINGS ${SOURCE_DIR}/${file} includes REGEX "^[ \t]*#[ \t]*include[ \t]*[<\"][^/>\"]+/")
@@ -78,14 +78,14 @@ foreach(file IN LISTS files)
     else()
       string(REGEX REPLACE "^(studies/[^/]+|[^/]+)/.*" "\\1" target "${header}")
     endif()
-    if(NOT DEFINED ${target}_may_use OR target STREQUAL room)
-      continue()  # another library's header, or the room's own
+    if(NOT DEFINED ${target}_may_use OR target STREQUAL layer)
+      continue()  # another library's header, or the layer's own
     endif()
-    if(room STREQUAL "public" AND header MATCHES "^carom/")
+    if(layer STREQUAL "public" AND header MATCHES "^carom/")
       continue()
     endif()
-    if(NOT target IN_LIST ${room}_may_use)
-      string(APPEND faults "${file}: includes ${header}, but ${room} may not use ${target}\n")
+    if(NOT target IN_LIST ${layer}_may_use)
+      string(APPEND faults "${file}: includes ${header}, but ${layer} may not use ${target}\n")
     endif()
   endforeach()
 endforeach()

@@ -1,6 +1,6 @@
 #pragma once
 // The horizon of a trajectory in numbers: the result of studies/horizon/horizon.hpp, which JSON and terminal show, and in one
-// honest sentence.
+// sentence.
 
 #include <cstddef>
 #include <cstdint>
