@@ -18,9 +18,9 @@ import sys
 from pathlib import Path
 
 # Made of the same headers as what is looked at, or written by the build.
-LEFT_OUT = re.compile(r"_avx|_texts\.cpp|build_info|lean_reversal|make_mixed|textbook_(float|quad)")
+LEFT_OUT = re.compile(r"_avx|_texts\.cpp|build_info|fast_reversal|make_mixed|textbook_(float|quad)")
 # These instantiate whole engines; and these are short and include headers that hold one of them at a time.
-ENGINE = re.compile(r"/(fixed_step|lean_\w+|make_\w+|textbook_\w+)\.cpp$")
+ENGINE = re.compile(r"/(fixed_step|fast_\w+|make_\w+|textbook_\w+)\.cpp$")
 KERNEL = "/kernels/"
 # For each parameter of CLI11 that is a copy performance-unnecessary-value-param looks through the whole unit: 45 s where it is large.
 PARSER = "<CLI/CLI.hpp>"

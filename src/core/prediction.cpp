@@ -16,24 +16,24 @@ extern const PredictionKernel<SizedFlight> step_sized_flight_kernel, falling_ste
 extern const PredictionKernel<MixedFlight> step_mixed_flight_kernel, falling_step_mixed_flight_kernel;
 
 // NOLINTBEGIN(bugprone-macro-parentheses): a type has none
-#define CAROM_PREDICTION_KERNELS(Line, name)                         \
-  template <>                                                        \
-  const PredictionKernel<Line>& prediction_kernel(Contact contact) { \
-    switch (contact) {                                               \
-      case Contact::falling:                                         \
-        return CAROM_CHOSEN_KERNEL(falling_##name);                  \
-      case Contact::growing:                                         \
-        return CAROM_CHOSEN_KERNEL(growing_##name);                  \
-      case Contact::steps:                                           \
-        return step_##name;                                          \
-      case Contact::falling_steps:                                   \
-        return falling_step_##name;                                  \
-      case Contact::sheared:                                         \
-        return CAROM_CHOSEN_KERNEL(sheared_##name);                  \
-      case Contact::hard:                                            \
-        break;                                                       \
-    }                                                                \
-    return CAROM_CHOSEN_KERNEL(name);                                \
+#define CAROM_PREDICTION_KERNELS(Line, name)                             \
+  template <>                                                            \
+  const PredictionKernel<Line>& prediction_kernel(PredictionKind kind) { \
+    switch (kind) {                                                      \
+      case PredictionKind::falling:                                      \
+        return CAROM_CHOSEN_KERNEL(falling_##name);                      \
+      case PredictionKind::growing:                                      \
+        return CAROM_CHOSEN_KERNEL(growing_##name);                      \
+      case PredictionKind::steps:                                        \
+        return step_##name;                                              \
+      case PredictionKind::falling_steps:                                \
+        return falling_step_##name;                                      \
+      case PredictionKind::sheared:                                      \
+        return CAROM_CHOSEN_KERNEL(sheared_##name);                      \
+      case PredictionKind::hard:                                         \
+        break;                                                           \
+    }                                                                    \
+    return CAROM_CHOSEN_KERNEL(name);                                    \
   }
 // NOLINTEND(bugprone-macro-parentheses)
 CAROM_PREDICTION_KERNELS(Flight, flight_kernel)

@@ -43,11 +43,11 @@ struct PredictionFrame {
   std::int32_t kinds = 0;
 };
 
-/// The kind of contact between two disks: hard cores, falling hard cores, growing hard cores, hard cores within steps of a
-/// potential (which may fall too), or hard cores in a sheared box. Falling does not change the relative motion of a pair, but
-/// height is energy: where other engines begin a new line at the next step of a coordinate towards the old line, falling disks'
-/// lines are rounded to nearest.
-enum class Contact { hard, falling, growing, steps, falling_steps, sheared };
+/// The kind of motion and interaction that a prediction kernel supports: hard cores, falling hard cores, growing hard cores, hard
+/// cores within steps of a potential (which may fall too), or hard cores in a sheared box. Falling does not change the relative
+/// motion of a pair, but height is energy: where other engines begin a new line at the next step of a coordinate towards the old
+/// line, falling disks' lines are rounded to nearest.
+enum class PredictionKind { hard, falling, growing, steps, falling_steps, sheared };
 
 /// The neighbourhood of a disk: a square round `centre` (in steps of 2^32 of a coordinate), and the ids of the disks that it may
 /// meet there, padded with its own id, with which it never collides, to eight at least and to a multiple of four; after a
@@ -91,6 +91,6 @@ struct PredictionKernel {
 
 /// Returns the best kernel for this machine; see core/instructions.hpp. That of steps is the same on all.
 template <class Line>
-const PredictionKernel<Line>& prediction_kernel(Contact contact = Contact::hard);
+const PredictionKernel<Line>& prediction_kernel(PredictionKind kind = PredictionKind::hard);
 
 }  // namespace carom

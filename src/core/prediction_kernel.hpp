@@ -97,13 +97,13 @@ CAROM_INLINE EightDoubles above_zero(EightDoubles x) {
 #endif
 
 /// A line spread over all lanes.
-struct PlainMine {
+struct BroadcastLine {
   Longs x, y;
   Doubles vx, vy;
   double radius;
 };
-/// The same of a disk whose contact distances are not sums of radii.
-struct MixedMine : PlainMine {
+/// A BroadcastLine of a disk whose contact distances are not sums of radii.
+struct BroadcastMixedLine : BroadcastLine {
   const double* scales;  ///< of its contact distance with each species
 };
 template <class Line>
@@ -111,19 +111,19 @@ constexpr bool is_mixed = requires(const Line& line) {
   line.species;
 };
 template <class Line>
-struct MineOf {
-  using Type = PlainMine;
+struct BroadcastOf {
+  using Type = BroadcastLine;
 };
 template <class Line>
 requires is_mixed<Line>
-struct MineOf<Line> {
-  using Type = MixedMine;
+struct BroadcastOf<Line> {
+  using Type = BroadcastMixedLine;
 };
 template <class Line>
-using Mine = typename MineOf<Line>::Type;
+using Broadcast = typename BroadcastOf<Line>::Type;
 
 template <class Line>
-CAROM_INLINE Mine<Line> mine_of(const Line& line, const PredictionFrame& frame, Longs x, Longs y, Doubles vx, Doubles vy) {
+CAROM_INLINE Broadcast<Line> broadcast(const Line& line, const PredictionFrame& frame, Longs x, Longs y, Doubles vx, Doubles vy) {
   if constexpr (is_mixed<Line>)
     return {{x, y, vx, vy, line.radius}, frame.contact_scales + std::ptrdiff_t{line.species} * frame.kinds};
   else if constexpr (sizeof(Line) > 32)
@@ -133,8 +133,8 @@ CAROM_INLINE Mine<Line> mine_of(const Line& line, const PredictionFrame& frame, 
 }
 
 template <class Line>
-CAROM_INLINE Mine<Line> mine_of(const Line& line, const PredictionFrame& frame) {
-  return mine_of(line, frame, all(line.x[0]), all(line.x[1]), all(line.v[0]), all(line.v[1]));
+CAROM_INLINE Broadcast<Line> broadcast(const Line& line, const PredictionFrame& frame) {
+  return broadcast(line, frame, all(line.x[0]), all(line.x[1]), all(line.v[0]), all(line.v[1]));
 }
 
 template <class Line>
@@ -189,7 +189,7 @@ CAROM_INLINE Lanes contact_times(const PredictionFrame& frame, Lanes x, Lanes y,
 
 /// When `mine` meets each of four others.
 template <bool growing, class Line>
-CAROM_INLINE Doubles meeting_times(const Line* lines, const PredictionFrame& frame, const Mine<Line>& mine,
+CAROM_INLINE Doubles meeting_times(const Line* lines, const PredictionFrame& frame, const Broadcast<Line>& mine,
                                    const std::int32_t* ids, double now) {
   const Line &l0 = lines[ids[0]], &l1 = lines[ids[1]], &l2 = lines[ids[2]], &l3 = lines[ids[3]];
   const Longs a0 = load(l0), a1 = load(l1), a2 = load(l2), a3 = load(l3);
@@ -236,7 +236,7 @@ CAROM_INLINE void earliest(Doubles t0, Doubles t1, Doubles t2, const std::int32_
 template <bool growing, class Line>
 [[gnu::noinline]] void search_on(const Line* lines, const PredictionFrame& frame, std::int32_t i, const Surroundings& around,
                                  double now, Prediction& first) {
-  const Mine<Line> mine = mine_of(lines[i], frame);
+  const Broadcast<Line> mine = broadcast(lines[i], frame);
   for (std::uint32_t k = 12; k < around.count; k += 4) {
     Prediction next;
     earliest(meeting_times<growing>(lines, frame, mine, around.ids + k, now), all(never), around.ids + k, next);
@@ -276,7 +276,7 @@ CAROM_INLINE void store(Line& line, Longs x, Doubles v, bool upper) {
 }
 
 /// Returns the coordinates of new lines, x and y of a, x and y of b, where from `now` on the velocities are v; see
-/// Contact::falling for how they are rounded.
+/// PredictionKind::falling for how they are rounded.
 template <bool falling, class Line>
 CAROM_INLINE Longs new_places(const Line& a, const Line& b, Doubles v, const PredictionFrame& frame, double now,
                               CollidedPair& pair) {
@@ -317,12 +317,12 @@ using EightLongs = long long __attribute__((vector_size(64)));
 using EightUnsignedLongs = unsigned long long __attribute__((vector_size(64)));
 
 /// A line spread over eight lanes; or one over four and another over the other four.
-struct PlainMineOfEight {
+struct BroadcastToEight {
   EightLongs x, y;
   EightDoubles vx, vy, radius;
 };
-/// The same with the scales of the contact distances of either.
-struct MixedMineOfEight : PlainMineOfEight {
+/// A BroadcastToEight with the scales of the contact distances of either disk.
+struct MixedBroadcastToEight : BroadcastToEight {
   const double *scales, *more_scales;
 };
 
@@ -330,12 +330,12 @@ CAROM_INLINE EightLongs all_eight(std::int64_t x) { return EightLongs{x, x, x, x
 
 /// Spread by the instructions that load: shuffles are what the vectors of neighbours have to wait for.
 template <class Line>
-CAROM_INLINE auto mine_of_eight(const Line& line, [[maybe_unused]] const PredictionFrame& frame) {
-  PlainMineOfEight mine{all_eight(line.x[0]), all_eight(line.x[1]), all_eight(line.v[0]), all_eight(line.v[1]), EightDoubles{}};
+CAROM_INLINE auto broadcast_to_eight(const Line& line, [[maybe_unused]] const PredictionFrame& frame) {
+  BroadcastToEight mine{all_eight(line.x[0]), all_eight(line.x[1]), all_eight(line.v[0]), all_eight(line.v[1]), EightDoubles{}};
   if constexpr (sizeof(Line) > 32) mine.radius = all_eight(line.radius);
   if constexpr (is_mixed<Line>) {
     const double* const scales = frame.contact_scales + std::ptrdiff_t{line.species} * frame.kinds;
-    return MixedMineOfEight{mine, scales, scales};
+    return MixedBroadcastToEight{mine, scales, scales};
   } else {
     return mine;
   }
@@ -348,11 +348,11 @@ CAROM_INLINE EightDoubles halves(EightDoubles a, EightDoubles b) {
 CAROM_INLINE EightLongs halves(EightLongs a, EightLongs b) {
   return reinterpret_cast<EightLongs>(halves(reinterpret_cast<EightDoubles>(a), reinterpret_cast<EightDoubles>(b)));
 }
-CAROM_INLINE PlainMineOfEight halves(const PlainMineOfEight& a, const PlainMineOfEight& b) {
+CAROM_INLINE BroadcastToEight halves(const BroadcastToEight& a, const BroadcastToEight& b) {
   return {halves(a.x, b.x), halves(a.y, b.y), halves(a.vx, b.vx), halves(a.vy, b.vy), halves(a.radius, b.radius)};
 }
-CAROM_INLINE MixedMineOfEight halves(const MixedMineOfEight& a, const MixedMineOfEight& b) {
-  return {halves(static_cast<const PlainMineOfEight&>(a), static_cast<const PlainMineOfEight&>(b)), a.scales, b.scales};
+CAROM_INLINE MixedBroadcastToEight halves(const MixedBroadcastToEight& a, const MixedBroadcastToEight& b) {
+  return {halves(static_cast<const BroadcastToEight&>(a), static_cast<const BroadcastToEight&>(b)), a.scales, b.scales};
 }
 
 /// Loads the first four numbers of two lines.
@@ -369,8 +369,8 @@ CAROM_INLINE EightDoubles lengths(EightLongs a, EightLongs b, double unit) {
 }
 
 /// When `mine` meets each of eight others: four and four.
-template <bool growing, class Line, class MineOfEight>
-CAROM_INLINE EightDoubles meeting_times(const Line* lines, const PredictionFrame& frame, const MineOfEight& mine,
+template <bool growing, class Line, class ToEight>
+CAROM_INLINE EightDoubles meeting_times(const Line* lines, const PredictionFrame& frame, const ToEight& mine,
                                         const std::int32_t* ids, const std::int32_t* more, double now) {
   const Line &l0 = lines[ids[0]], &l1 = lines[ids[1]], &l2 = lines[ids[2]], &l3 = lines[ids[3]];
   const Line &l4 = lines[more[0]], &l5 = lines[more[1]], &l6 = lines[more[2]], &l7 = lines[more[3]];
@@ -423,10 +423,10 @@ CAROM_INLINE void first_meeting(const Line* lines, const PredictionFrame& frame,
                                 double now, Prediction& first) {
   const std::int32_t* const ids = around.ids;
   const bool more = around.count > 8;
-  const EightDoubles t = meeting_times<growing>(lines, frame, mine_of_eight(lines[i], frame), ids, ids + 4, now);
+  const EightDoubles t = meeting_times<growing>(lines, frame, broadcast_to_eight(lines[i], frame), ids, ids + 4, now);
   Doubles of_all = lesser(__builtin_shufflevector(t, t, 0, 1, 2, 3), __builtin_shufflevector(t, t, 4, 5, 6, 7));
   Doubles of_more = of_all;
-  if (more) of_all = lesser(of_all, of_more = meeting_times<growing>(lines, frame, mine_of(lines[i], frame), ids + 8, now));
+  if (more) of_all = lesser(of_all, of_more = meeting_times<growing>(lines, frame, broadcast(lines[i], frame), ids + 8, now));
   const Doubles least = least_of_fours(of_all);
   unsigned which = bits_of_equal(t, all_eight(least[0]));
   if (more) which |= bits_of_equal(of_more, least) << 8;
@@ -438,7 +438,7 @@ template <bool growing, class Line>
 CAROM_INLINE void first_meetings(const Line* lines, const PredictionFrame& frame, std::uint32_t most, double now,
                                  CollidedPair& pair) {
   const std::int32_t *const ids_a = pair.around[0].ids, *const ids_b = pair.around[1].ids;
-  const auto mine_a = mine_of_eight(lines[pair.disk[0]], frame), mine_b = mine_of_eight(lines[pair.disk[1]], frame);
+  const auto mine_a = broadcast_to_eight(lines[pair.disk[0]], frame), mine_b = broadcast_to_eight(lines[pair.disk[1]], frame);
   const bool more = most > 8;
   const EightDoubles a = meeting_times<growing>(lines, frame, mine_a, ids_a, ids_a + 4, now);
   const EightDoubles b = meeting_times<growing>(lines, frame, mine_b, ids_b, ids_b + 4, now);
@@ -464,7 +464,7 @@ CAROM_INLINE void first_meetings(const Line* lines, const PredictionFrame& frame
 
 /// What a disk meets first among its first twelve neighbours, four at a time.
 template <bool growing, class Line>
-CAROM_INLINE void first_meeting_by_fours(const Line* lines, const PredictionFrame& frame, const Mine<Line>& mine,
+CAROM_INLINE void first_meeting_by_fours(const Line* lines, const PredictionFrame& frame, const Broadcast<Line>& mine,
                                          const Surroundings& around, double now, Prediction& first) {
   const Doubles t0 = meeting_times<growing>(lines, frame, mine, around.ids, now);
   Doubles t1 = all(never);
@@ -476,8 +476,8 @@ CAROM_INLINE void first_meeting_by_fours(const Line* lines, const PredictionFram
 
 /// What collided disks meet first among their first eight and, where `most` has more, twelve neighbours, four at a time.
 template <bool growing, class Line>
-CAROM_INLINE void first_meetings(const Line* lines, const PredictionFrame& frame, const Mine<Line>& a, const Mine<Line>& b,
-                                 std::uint32_t most, double now, CollidedPair& pair) {
+CAROM_INLINE void first_meetings(const Line* lines, const PredictionFrame& frame, const Broadcast<Line>& a,
+                                 const Broadcast<Line>& b, std::uint32_t most, double now, CollidedPair& pair) {
   const std::int32_t *const ids_a = pair.around[0].ids, *const ids_b = pair.around[1].ids;
   const Doubles a0 = meeting_times<growing>(lines, frame, a, ids_a, now),
                 b0 = meeting_times<growing>(lines, frame, b, ids_b, now);
@@ -505,7 +505,7 @@ void predict(const Line* lines, const PredictionFrame& frame, std::int32_t i, co
 #if defined(__AVX512F__)
   first_meeting<growing>(lines, frame, i, around, now, ahead);
 #else
-  first_meeting_by_fours<growing>(lines, frame, mine_of(line, frame), around, now, ahead);
+  first_meeting_by_fours<growing>(lines, frame, broadcast(line, frame), around, now, ahead);
 #endif
   if (around.count > 12) search_on<growing>(lines, frame, i, around, now, ahead);
 }
@@ -530,8 +530,8 @@ void turn_and_predict(Line* lines, const PredictionFrame& frame, CollidedPair& p
 #if defined(__AVX512F__)
   first_meetings<growing>(lines, frame, most, now, pair);
 #else
-  const Mine<Line> mine_a = mine_of(a, frame, all_of<0>(x), all_of<1>(x), all(avx), all(avy));
-  const Mine<Line> mine_b = mine_of(b, frame, all_of<2>(x), all_of<3>(x), all(bvx), all(bvy));
+  const Broadcast<Line> mine_a = broadcast(a, frame, all_of<0>(x), all_of<1>(x), all(avx), all(avy));
+  const Broadcast<Line> mine_b = broadcast(b, frame, all_of<2>(x), all_of<3>(x), all(bvx), all(bvy));
   first_meetings<growing>(lines, frame, mine_a, mine_b, most, now, pair);
 #endif
   if (most <= 12) return;

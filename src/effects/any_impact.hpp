@@ -32,7 +32,7 @@ class AnyImpact {
 
   AnyImpact(const Effects& effects, std::size_t disks)
       : rule_(effects.collision.rule),
-        turn_((1 + Real(effects.collision.restitution.value_or(1.0))) / 2),
+        reflected_fraction_((1 + Real(effects.collision.restitution.value_or(1.0))) / 2),
         roughness_(Real(effects.collision.roughness.value_or(-1.0))),
         elastic_below_(Real(effects.collision.elastic_below.value_or(0.0))),
         spins_(effects.collision.roughness ? disks : 0, Real(0)),
@@ -78,19 +78,19 @@ class AnyImpact {
   /// Disks i and j meet at separation r = r_i - r_j at time `now`, at their hard cores or at an edge of the potential. `sigma`:
   /// their contact distance; `expansion`: its rate. Changes velocities and keeps count. Returns InelasticResult::smallness.
   Real meet(const Vec2<Real>& r, Real sigma, Real expansion, const Body& i, const Body& j, Real now, RunningTotals& totals) {
-    const Real before = i.v.x(), slowed = drag_.at(now);
+    const Real before = i.v.x(), drag_factor = drag_.at(now);
     InelasticResult<Real> impact;
     if (potential_.present() && potential_.at_edge(r, sigma)) {
       ++totals.well;
       impact = {potential_.cross_edge(i.disk, j.disk, r, sigma, i.mass, i.v, j.mass, j.v)};
     } else {
-      if (owing_) settle(i, j);
+      if (has_correction_) apply_correction(i, j);
       impact = by_rule_alone_ && expansion == 0 ? InelasticResult<Real>{collide(r, i, j)} : collide(r, expansion, i, j, now);
       ++totals.pair;
-      if (impact.lost != 0) totals.dissipated.add(static_cast<double>(slowed * slowed * impact.lost));
+      if (impact.lost != 0) totals.dissipated.add(static_cast<double>(drag_factor * drag_factor * impact.lost));
       if (expansion > 0) totals.growth_energy.add(static_cast<double>(impact.energy + impact.lost));
     }
-    totals.virial.add(static_cast<double>(slowed * impact.virial));
+    totals.virial.add(static_cast<double>(drag_factor * impact.virial));
     if (sheared_) totals.virial_yx.add(static_cast<double>(r.y() * i.mass * (i.v.x() - before)));
     return impact.smallness;
   }
@@ -103,17 +103,18 @@ class AnyImpact {
     by_rule_alone_ = is_plain();
   }
 
-  /// The next two disks that meet get this momentum besides.
-  void owe(const Vec2<Real>& momentum) {
-    owed_ = momentum;
-    owing_ = owed_[0] != 0 || owed_[1] != 0;
+  /// Sets the momentum that the next two colliding disks get in addition (engine/common_motion.hpp).
+  void set_momentum_correction(const Vec2<Real>& momentum) {
+    momentum_correction_ = momentum;
+    has_correction_ = momentum_correction_[0] != 0 || momentum_correction_[1] != 0;
   }
 
-  /// TC model (Luding & McNamara 1998): a disk that collided less than `elastic_below` ago loses nothing.
-  [[nodiscard]] bool rests(std::int32_t i, Real now) const {
+  /// Returns whether the TC model makes a contact of disk i elastic: its last was less than `elastic_below` ago (Luding &
+  /// McNamara 1998).
+  [[nodiscard]] bool is_elastic(std::int32_t i, Real now) const {
     return !last_.empty() && now - last_[static_cast<std::size_t>(i)] < elastic_below_;
   }
-  void touched(std::int32_t i, Real now) {
+  void record_collision_time(std::int32_t i, Real now) {
     if (!last_.empty()) last_[static_cast<std::size_t>(i)] = now;
   }
 
@@ -123,8 +124,8 @@ class AnyImpact {
     drag_.rebase(now);
   }
 
-  /// True velocities over those that the engine computes with.
-  [[nodiscard]] Real slowed(Real now) const { return drag_.at(now); }
+  /// Returns the ratio of true velocities to those that the engine computes with.
+  [[nodiscard]] Real drag_factor(Real now) const { return drag_.at(now); }
 
   [[nodiscard]] bool spinning() const { return !spins_.empty(); }
   [[nodiscard]] Real& spin(std::int32_t i) { return spins_[static_cast<std::size_t>(i)]; }
@@ -137,7 +138,7 @@ class AnyImpact {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(spins_, last_, potential_, owed_, owing_, drag_);
+    archive(spins_, last_, potential_, momentum_correction_, has_correction_, drag_);
   }
 
  private:
@@ -150,8 +151,8 @@ class AnyImpact {
   }
   InelasticResult<Real> collide(const Vec2<Real>& r, Real expansion, const Body& i, const Body& j, Real now) {
     if (own_rule_) return collide_by_own_rule(r, i, j);
-    const bool elastic = rests(i.disk, now) || rests(j.disk, now);
-    const Inelasticity<Real> how{elastic ? Real(1) : turn_, expansion};
+    const bool elastic = is_elastic(i.disk, now) || is_elastic(j.disk, now);
+    const Inelasticity<Real> how{elastic ? Real(1) : reflected_fraction_, expansion};
     InelasticResult<Real> result = rule_ == CollisionRule::reversal
                                        ? carom::collide<Reversal, Real>(r, i.mass, i.v, j.mass, j.v, how)
                                        : carom::collide<Specular, Real>(r, i.mass, i.v, j.mass, j.v, how);
@@ -160,12 +161,12 @@ class AnyImpact {
       result.energy += gained;
       result.lost -= gained;
     }
-    touched(i.disk, now);
-    touched(j.disk, now);
+    record_collision_time(i.disk, now);
+    record_collision_time(j.disk, now);
     return result;
   }
 
-  [[nodiscard]] bool is_plain() const { return turn_ == 1 && roughness_ == -1 && last_.empty() && !own_rule_; }
+  [[nodiscard]] bool is_plain() const { return reflected_fraction_ == 1 && roughness_ == -1 && last_.empty() && !own_rule_; }
 
   [[nodiscard]] std::int32_t id(const Body& body) const { return ids_ == nullptr ? body.disk : ids_[body.disk]; }
 
@@ -213,23 +214,23 @@ class AnyImpact {
                             std::to_string(id(b)));
   }
 
-  /// Both alike, so that nothing changes between them.
-  [[gnu::noinline, gnu::cold]] void settle(const Body& i, const Body& j) {
-    const Vec2<Real> each = owed_ / (i.mass + j.mass);
+  /// Gives both disks the same change of velocity, so that their relative velocity stays.
+  [[gnu::noinline, gnu::cold]] void apply_correction(const Body& i, const Body& j) {
+    const Vec2<Real> each = momentum_correction_ / (i.mass + j.mass);
     i.v += each;
     j.v += each;
-    owe(Vec2<Real>::Zero());
+    set_momentum_correction(Vec2<Real>::Zero());
   }
 
   CollisionRule rule_;
-  Real turn_;  ///< (1 + e) / 2
+  Real reflected_fraction_;  ///< (1 + e) / 2
   Real roughness_;
   Real elastic_below_;
   std::vector<Real> spins_;
   std::vector<Real> last_;  ///< collision of each disk, since the clock's zero
   PairPotential<Real> potential_;
-  Vec2<Real> owed_ = Vec2<Real>::Zero();  ///< momentum
-  bool owing_ = false;
+  Vec2<Real> momentum_correction_ = Vec2<Real>::Zero();  ///< momentum
+  bool has_correction_ = false;
   CollisionFunction own_rule_;  ///< of the program
   const std::int32_t* ids_ = nullptr;
   bool by_rule_alone_;  ///< at a hard core

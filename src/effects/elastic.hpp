@@ -1,5 +1,5 @@
 #pragma once
-// What happens when two disks meet, where nothing but the collision rule acts: the lean answer in the place of any_impact.hpp.
+// What happens when two disks meet, where nothing but the collision rule acts: the plain alternative to any_impact.hpp.
 
 #include "core/running_totals.hpp"
 #include "effects/impact.hpp"
@@ -44,8 +44,8 @@ class Elastic {
   }
 
   [[nodiscard]] static bool spinning() { return false; }
-  [[nodiscard]] static bool rests(std::int32_t /*i*/, double /*now*/) { return false; }
-  static void touched(std::int32_t /*i*/, double /*now*/) {}
+  [[nodiscard]] static bool is_elastic(std::int32_t /*i*/, double /*now*/) { return false; }
+  static void record_collision_time(std::int32_t /*i*/, double /*now*/) {}
   static void rebase(double /*now*/) {}
   [[nodiscard]] static std::size_t bytes() { return 0; }
 };

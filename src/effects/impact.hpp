@@ -1,11 +1,11 @@
 #pragma once
 // What contact does to two velocities, for every collision rule. A rule (specular.hpp, reversal.hpp) says which part d of
-// the relative velocity v is turned round; this file shares it out so that momentum and energy are kept to rounding with
+// the relative velocity v is reversed; this file shares it out so that momentum and energy are kept to rounding with
 // no bias, for any ratio of masses. With v and d of light relative to heavy and k = 2 m_light / (m_light + m_heavy) < 1,
 //
 //     v_heavy' = v_heavy + k d,    v_light' = v_heavy' + (v - 2 d).
 //
-// The relative velocity is turned round whatever the rounding of k, and k's error is that of the mass ratio alone. Shares
+// The relative velocity is reversed whatever the rounding of k, and k's error is that of the mass ratio alone. Shares
 // 2 mu/m_i and 2 mu/m_j that are rounded one by one would heat or cool the gas by a fixed 1e-16 per collision.
 
 #include "core/vec2.hpp"
@@ -33,8 +33,8 @@ struct InelasticResult : ImpactResult<Real> {
 /// The differences of a collision from that of elastic disks of constant size.
 template <class Real>
 struct Inelasticity {
-  Real turn = 1;       ///< (1 + e) / 2 for restitution e: the share of d that is turned round
-  Real expansion = 0;  ///< of the contact distance: length / time, >= 0
+  Real reflected_fraction = 1;  ///< (1 + e) / 2 for restitution e: the share of d that is reversed
+  Real expansion = 0;           ///< of the contact distance: length / time, >= 0
 };
 
 namespace detail {
@@ -64,7 +64,7 @@ template <class Real>
 
 /// Gives the partners of a pair of relative velocity v their shares of -2 d.
 template <class Real>
-void share_out(const Vec2<Real>& v, const Vec2<Real>& d, Real m_i, Vec2<Real>& v_i, Real m_j, Vec2<Real>& v_j) {
+void apply_by_mass(const Vec2<Real>& v, const Vec2<Real>& d, Real m_i, Vec2<Real>& v_i, Real m_j, Vec2<Real>& v_j) {
   if (m_i == m_j) {
     v_i -= d;
     v_j += d;
@@ -103,17 +103,17 @@ ImpactResult<Real> collide(const Vec2<Real>& r, Real m_i, Vec2<Real>& v_i, Real 
     std::swap(v_i, v_j);
     return result;
   }
-  detail::share_out<Real>(v, Rule::turned(r, v, b), m_i, v_i, m_j, v_j);
+  detail::apply_by_mass<Real>(v, Rule::reversed_part(r, v, b), m_i, v_i, m_j, v_j);
   if (r.dot(v_i - v_j) < 0) detail::recede(r, m_i, v_i, m_j, v_j);
   return result;
 }
 
 /// Collides disks that lose energy or grow: the rule acts on the velocity v - a n with which their surfaces approach, a the
-/// expansion of the contact distance. With turn 1 and expansion 0 the bits are those of the function above.
+/// expansion of the contact distance. With reflected_fraction 1 and expansion 0 the bits are those of the function above.
 template <class Rule, class Real>
 InelasticResult<Real> collide(const Vec2<Real>& r, Real m_i, Vec2<Real>& v_i, Real m_j, Vec2<Real>& v_j,
                               const Inelasticity<Real>& how) {
-  if (how.turn == 1 && how.expansion == 0) return {collide<Rule, Real>(r, m_i, v_i, m_j, v_j)};
+  if (how.reflected_fraction == 1 && how.expansion == 0) return {collide<Rule, Real>(r, m_i, v_i, m_j, v_j)};
   using std::sqrt;
   const Vec2<Real> v = v_i - v_j;
   const Real distance = sqrt(r.squaredNorm());
@@ -122,16 +122,16 @@ InelasticResult<Real> collide(const Vec2<Real>& r, Real m_i, Vec2<Real>& v_i, Re
   if (!(b < 0)) return {};
 
   const Vec2<Real> surfaces = v - (how.expansion / distance) * r;
-  const Vec2<Real> d = how.turn * Rule::turned(r, surfaces, b);
+  const Vec2<Real> d = how.reflected_fraction * Rule::reversed_part(r, surfaces, b);
   // mu / 2 (|v - 2 d|^2 - v^2) = 2 mu (d^2 - d . v)
   const Real gained = detail::twice_reduced<Real>(d.dot(d - v), m_i, m_j);
   // In the frame of the surfaces, which leaves out the work that they do.
-  const Real lost = how.turn == 1 ? Real(0) : detail::twice_reduced<Real>(d.dot(surfaces - d), m_i, m_j);
-  detail::share_out<Real>(v, d, m_i, v_i, m_j, v_j);
+  const Real lost = how.reflected_fraction == 1 ? Real(0) : detail::twice_reduced<Real>(d.dot(surfaces - d), m_i, m_j);
+  detail::apply_by_mass<Real>(v, d, m_i, v_i, m_j, v_j);
   if (r.dot(v_i - v_j) < least) detail::recede(r, m_i, v_i, m_j, v_j, least);
-  return {{detail::twice_reduced<Real>(-b * how.turn, m_i, m_j), gained},
+  return {{detail::twice_reduced<Real>(-b * how.reflected_fraction, m_i, m_j), gained},
           lost,
-          how.turn < 1 ? smallness<Real>(-b / distance, distance) : infinity<Real>};
+          how.reflected_fraction < 1 ? smallness<Real>(-b / distance, distance) : infinity<Real>};
 }
 
 }  // namespace carom

@@ -3,9 +3,9 @@
 // Segments and arcs are hard from both sides and end in corners of radius zero. The rim of a circular box is an arc without ends.
 
 #include "core/arc_contact_time.hpp"
-#include "core/domain.hpp"
 #include "core/rectangle_bins.hpp"
 #include "core/segment_contact_time.hpp"
+#include "core/simulation_box.hpp"
 #include "effects/rebound.hpp"
 #include "scene/fixed_shapes.hpp"
 
@@ -63,7 +63,7 @@ class ObstacleShapes {
   };
   using Shape = std::variant<Disk, Segment<Real>, Arc<Real>>;
 
-  ObstacleShapes(const Domain<Real>& domain, const RectangleBins& bins, const std::vector<Obstacle>& obstacles)
+  ObstacleShapes(const SimulationBox<Real>& domain, const RectangleBins& bins, const std::vector<Obstacle>& obstacles)
       : length_(domain.length) {
     for (const Obstacle& obstacle : obstacles) {
       if (const auto* disk = std::get_if<DiskObstacle>(&obstacle)) {
@@ -383,7 +383,7 @@ class Obstacles {
     return x >= 0 && x <= segment.length;
   }
 
-  Domain<Real> domain_;
+  SimulationBox<Real> domain_;
   RectangleBins bins_;
   ObstacleShapes<Real> shapes_;
 };

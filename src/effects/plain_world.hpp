@@ -1,5 +1,5 @@
 #pragma once
-// What is round the disks besides other disks where no effect acts: hard walls at rest, or none. The lean answer in the place of
+// What is round the disks besides other disks where no effect acts: hard walls at rest, or none. The plain alternative to
 // AnyWorld (world.hpp).
 
 #include "core/running_totals.hpp"

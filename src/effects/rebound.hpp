@@ -48,7 +48,7 @@ template <class Real>
   const Vec2<Real> surface = v - (expansion / distance) * normal;
   const Real b = normal.dot(surface);
   const Vec2<Real> before = v;
-  if (b < 0) v -= 2 * Specular::turned<Real>(normal, surface, b);
+  if (b < 0) v -= 2 * Specular::reversed_part<Real>(normal, surface, b);
   const Real closing = b < 0 ? -b / distance : Real(0);
   const Real parting = rebound<Real>(closing, 1, -normal.dot(g) / distance, radius);
   if (parting != closing) v += ((parting - closing) / distance) * normal;

@@ -1,6 +1,6 @@
 #pragma once
 // Smooth hard disks, the rule of kinetic theory: only the part of the relative velocity along the line of centres is
-// turned round.
+// reversed.
 
 #include "core/vec2.hpp"
 
@@ -17,7 +17,7 @@ struct Specular {
   /// The step needs 1 / |d|^2 to a few digits only, for it changes d by an ulp or two: |r|^2 / b^2 will do, which is known before
   /// d is.
   template <class Real>
-  static Vec2<Real> turned(const Vec2<Real>& r, const Vec2<Real>& v, Real b) {
+  static Vec2<Real> reversed_part(const Vec2<Real>& r, const Vec2<Real>& v, Real b) {
     const Real rr = r.squaredNorm(), inverse_square = rr / (b * b);
     const Vec2<Real> d = (b / rr) * r;
     if (!(inverse_square < infinity<Real>)) return d;  // too small to be squared

@@ -6,10 +6,10 @@
 // A side is like a disk of infinite width: a displacement, a velocity and an acceleration since a time of its own. Speeds
 // here are outward ones, positive towards the left at the left wall, so that all four sides are treated alike.
 
-#include "core/domain.hpp"
 #include "core/fall_time.hpp"
 #include "core/random.hpp"
 #include "core/sides.hpp"
+#include "core/simulation_box.hpp"
 #include "effects/maxwell.hpp"
 #include "effects/oscillation.hpp"
 #include "effects/rebound.hpp"

@@ -55,25 +55,25 @@ struct AnyWorld {
 
   /// A disk meets a wall or an obstacle: changes its velocity and keeps count. Returns Walls::Hit::smallness.
   double meet(std::int32_t what, const BoundaryContact& contact, Vec2<double>& v, double now, RunningTotals& totals) {
-    const double expansion = growth_ * contact.radius / scale(now), slowed = drag_.at(now);
+    const double expansion = growth_ * contact.radius / scale(now), drag_factor = drag_.at(now);
     if (what <= first_obstacle) {
       ++totals.obstacle;
       const auto bounce =
           obstacles.bounce(first_obstacle - what, contact.r, v, falling.g, contact.mass, contact.radius, expansion);
       if (first_obstacle - what == rim_)
-        totals.circle_impulse.add(slowed * outward(bounce.impulse, contact.r));
+        totals.circle_impulse.add(drag_factor * outward(bounce.impulse, contact.r));
       else
-        for (int k = 0; k < 2; ++k) totals.obstacle_impulse[static_cast<std::size_t>(k)].add(slowed * bounce.impulse[k]);
+        for (int k = 0; k < 2; ++k) totals.obstacle_impulse[static_cast<std::size_t>(k)].add(drag_factor * bounce.impulse[k]);
       if (bounce.energy != 0.0) totals.growth_energy.add(bounce.energy);
       return infinity<double>;
     }
     const Wall wall = static_cast<Wall>(what);
     ++totals.wall;
     const auto hit = walls.meet(wall, v, falling.g, contact.mass, contact.radius, expansion, contact.elastic, now);
-    totals.wall_impulse[index_of(wall)].add(slowed * hit.impulse);
-    if (hit.shear != 0.0) totals.wall_shear[index_of(wall)].add(slowed * hit.shear);
-    totals.wall_energy[index_of(wall)].add(slowed * slowed * hit.energy);
-    if (hit.work != 0.0) totals.wall_work[index_of(wall)].add(slowed * slowed * hit.work);
+    totals.wall_impulse[index_of(wall)].add(drag_factor * hit.impulse);
+    if (hit.shear != 0.0) totals.wall_shear[index_of(wall)].add(drag_factor * hit.shear);
+    totals.wall_energy[index_of(wall)].add(drag_factor * drag_factor * hit.energy);
+    if (hit.work != 0.0) totals.wall_work[index_of(wall)].add(drag_factor * drag_factor * hit.work);
     return hit.smallness;
   }
   /// Whether a contact changes the motion of this wall or obstacle: it is a piston.

@@ -32,14 +32,14 @@ class CommonMotion {
     for (int axis = 0; axis < 2; ++axis) kept_[axis] = kept_[axis] && !exceeds(sums, axis);
   }
 
-  /// The momentum that must be given to disks for them to stand still as a whole, where it has come to matter; else 0.
+  /// Returns minus the total momentum along each conserved axis on which it exceeds the bound of rounding; else 0.
   template <class Disks, class MomentumOf>
-  [[nodiscard]] Vec2<Real> owed(const Disks& disks, MomentumOf&& momentum) const {
+  [[nodiscard]] Vec2<Real> momentum_correction(const Disks& disks, MomentumOf&& momentum) const {
     const Sums sums = sums_of(disks, momentum);
-    Vec2<Real> owed = Vec2<Real>::Zero();
+    Vec2<Real> correction = Vec2<Real>::Zero();
     for (int axis = 0; axis < 2; ++axis)
-      if (kept_[axis] && exceeds(sums, axis)) owed[axis] = -sums.momentum[axis];
-    return owed;
+      if (kept_[axis] && exceeds(sums, axis)) correction[axis] = -sums.momentum[axis];
+    return correction;
   }
 
   template <class Archive>

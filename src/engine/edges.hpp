@@ -4,9 +4,9 @@
 // those above are displaced along x and faster than the disk itself; no wall is there, but a disk that comes to an edge gets an
 // event.
 
-#include "core/domain.hpp"
 #include "core/fall_time.hpp"
 #include "core/running_totals.hpp"
+#include "core/simulation_box.hpp"
 #include "core/vec2.hpp"
 #include "effects/shear.hpp"
 
@@ -28,7 +28,7 @@ class Edges {
         images_(box, effects.shear, displacement) {}
 
   /// The box as it was at the start; a sheared box repeats along x only, as far as cells and coordinates are concerned.
-  [[nodiscard]] const Domain<Real>& domain() const { return domain_; }
+  [[nodiscard]] const SimulationBox<Real>& domain() const { return domain_; }
   /// Whether images above and below move against the box.
   [[nodiscard]] bool sheared() const { return images_.present(); }
   /// Whether walls are at both ends of an axis.
@@ -121,7 +121,7 @@ class Edges {
     return box;
   }
 
-  Domain<Real> domain_;
+  SimulationBox<Real> domain_;
   LeesEdwards<Real> images_;
 };
 

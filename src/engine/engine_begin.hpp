@@ -16,10 +16,11 @@ namespace detail {
 template <class Line>
 const PredictionKernel<Line>& kernel_for(const Effects& effects) {
   const bool falling = !effects.acceleration().isZero(0.0);
-  if (effects.growth && effects.growth->rate > 0.0) return prediction_kernel<Line>(Contact::growing);
-  if (!effects.potential_steps().empty()) return prediction_kernel<Line>(falling ? Contact::falling_steps : Contact::steps);
-  if (effects.shear_rate() != 0.0) return prediction_kernel<Line>(Contact::sheared);
-  return prediction_kernel<Line>(falling ? Contact::falling : Contact::hard);
+  if (effects.growth && effects.growth->rate > 0.0) return prediction_kernel<Line>(PredictionKind::growing);
+  if (!effects.potential_steps().empty())
+    return prediction_kernel<Line>(falling ? PredictionKind::falling_steps : PredictionKind::steps);
+  if (effects.shear_rate() != 0.0) return prediction_kernel<Line>(PredictionKind::sheared);
+  return prediction_kernel<Line>(falling ? PredictionKind::falling : PredictionKind::hard);
 }
 
 }  // namespace detail

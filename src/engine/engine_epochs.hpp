@@ -17,7 +17,9 @@ void EventLoop<Impact, Layout, World>::begin_epoch(double now) {
   if (leave_to_whole()) return;
   rebase(now);
   if constexpr (!Impact::plain)
-    if (common_motion_.present()) impact_.owe(common_motion_.owed(lines_, [this](const Line& a) { return layout_.momentum(a); }));
+    if (common_motion_.present())
+      impact_.set_momentum_correction(
+          common_motion_.momentum_correction(lines_, [this](const Line& a) { return layout_.momentum(a); }));
   if constexpr (!World::plain) reset_falling_frame(), widen_coordinates();
   if (now > 0.0) tune_neighbourhoods(now);
   choose_epoch_length();
@@ -97,14 +99,14 @@ void LoopState<Impact, Layout, World>::multiply_velocities(double factor) {
 
 template <class Impact, class Layout, class World>
 void LoopState<Impact, Layout, World>::choose_epoch_length() {
-  SpeedCensus speeds;
+  SpeedSummary speeds;
   for (const Line& a : lines_) speeds.add(a.v);
-  suit_epoch(speeds);
+  choose_epoch_length(speeds);
 }
 
 /// Chooses the length of the epoch that begins with these speeds of all disks.
 template <class Impact, class Layout, class World>
-void LoopState<Impact, Layout, World>::suit_epoch(const SpeedCensus& speeds) {
+void LoopState<Impact, Layout, World>::choose_epoch_length(const SpeedSummary& speeds) {
   stall_.check_speeds(is_too_slow<double>(std::max(speeds.fastest[0], speeds.fastest[1]), sizes_.mean_diameter));
   const double sum = speeds.sum.value();
   if (!(sum < never)) stall_.fail("a velocity is not finite");
@@ -116,7 +118,7 @@ void LoopState<Impact, Layout, World>::suit_epoch(const SpeedCensus& speeds) {
   if constexpr (!World::plain) longest = std::min(longest, longest_epoch_of_world());
   epoch_length_ = longest < 0x1p1000 ? std::ldexp(1.0, std::ilogb(longest)) : never;
   frame_.edge_step = epoch_length_ < never ? 0x1p-20 * epoch_length_ : 0.0;
-  limits_.suit_epoch(epoch_length_);
+  limits_.set_epoch_length(epoch_length_);
 }
 
 /// The longest epoch that the effects allow.

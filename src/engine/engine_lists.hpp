@@ -60,7 +60,7 @@ void LoopState<Impact, Layout, World>::rebuild(double half_width) {
   totals_.numerics.longest_neighbour_list = 0;
   for (std::int32_t i = 0; i < count(); ++i)
     totals_.numerics.longest_neighbour_list = std::max<std::uint64_t>(totals_.numerics.longest_neighbour_list, lists_.count(i));
-  suit_neighbourhoods(half_width);
+  set_half_width(half_width);
   if constexpr (!World::plain)
     if (world_.sheared()) leave_room_for_shear(centres);
 }
@@ -76,7 +76,7 @@ std::vector<NeighbourhoodCentre> LoopState<Impact, Layout, World>::new_centres()
 
 /// Adapts to neighbourhoods of this half-width what depends on it beside the lists.
 template <class Impact, class Layout, class World>
-void LoopState<Impact, Layout, World>::suit_neighbourhoods(double half_width) {
+void LoopState<Impact, Layout, World>::set_half_width(double half_width) {
   frame_.half_width = half_width;
   boundaries_.set_neighbourhoods(half_width, sizes_.largest_contact);
   // Nearest images are right as long as a pair that may meet is less than half a box apart, now and along its lines back

@@ -47,10 +47,10 @@ class EventLoop : public LoopState<Impact, Layout, World> {
 
   /// Processes every event with time <= target, then stands at target (at the last event where target is forever and none
   /// is to come) and returns true. Returns false, and stands at the last event, where totals().pair reaches `pair_limit`,
-  /// after `event_limit` events of any kind, and when stall().jammed().
+  /// after `event_limit` events of any kind, and when stall().is_stalled().
   bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) {
     double end = target.since<double>(epoch_);
-    for (; totals_.pair < pair_limit && event_limit > 0 && !stall_.jammed(); --event_limit) {
+    for (; totals_.pair < pair_limit && event_limit > 0 && !stall_.is_stalled(); --event_limit) {
       const auto [time, disk] = queue_.next(plans_, [this](std::int64_t span) { prefetch_calendar(span); });
       if (time <= end && time < epoch_length_) [[likely]] {
         step(disk, time);
@@ -71,11 +71,11 @@ class EventLoop : public LoopState<Impact, Layout, World> {
   using Parts::last_collision_, Parts::count, Parts::line, Parts::id, Parts::data, Parts::surroundings, Parts::predicted;
   using Parts::layout_, Parts::impact_, Parts::world_, Parts::flight_, Parts::boundaries_, Parts::frame_, Parts::kernel_;
   using Parts::lines_, Parts::ids_, Parts::plans_, Parts::lists_, Parts::queue_, Parts::tuning_, Parts::pacing_;
-  using Parts::make_lists, Parts::outgrow_lists, Parts::rebuild, Parts::suit_neighbourhoods, Parts::update_shear;
+  using Parts::make_lists, Parts::outgrow_lists, Parts::rebuild, Parts::set_half_width, Parts::update_shear;
   using Parts::never, Parts::last_stamp, Parts::part_, Parts::stopped_;
   using Parts::predicted_against, Parts::lowest_of_tied, Parts::prefetch_calendar, Parts::leave_to_whole, Parts::fail_between;
   using Parts::prefetcher_, Parts::stall_, Parts::common_motion_, Parts::recorder_, Parts::totals_, Parts::counted_;
-  using Parts::rebase, Parts::rebase_clock, Parts::choose_epoch_length, Parts::suit_epoch, Parts::reset_falling_frame;
+  using Parts::rebase, Parts::rebase_clock, Parts::choose_epoch_length, Parts::reset_falling_frame;
   using typename Parts::Line;
 
   /// Processes the next event of all.
@@ -154,12 +154,12 @@ class EventLoop : public LoopState<Impact, Layout, World> {
     const Line& a = line(i);
     Vec2<double> v = flight_.velocity(a, now_);
     const BoundaryContact contact{flight_.place(a, now_), layout_.mass(a), layout_.radius(a) * world_.scale(now_),
-                                  impact_.rests(i, now_)};
+                                  impact_.is_elastic(i, now_)};
     if constexpr (World::plain)
       world_.meet(what, contact, v, now_, *counted_);
     else
       stall_.record_loss(world_.meet(what, contact, v, now_, *counted_), {id(i)});
-    impact_.touched(i, now_);
+    impact_.record_collision_time(i, now_);
     if (recorder_.logging()) recorder_.log_hit(now_, i, what, v);
     change_velocity(i, v);
     if (world_.is_movable(what)) plan_edges_anew();

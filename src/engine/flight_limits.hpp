@@ -16,7 +16,7 @@ struct FlightLimits {
   double speed[2] = {};             ///< with which a line stays shorter than that until the epoch ends
   double shear_displacement = 0.0;  ///< the longest way that images may slide in an epoch
 
-  void suit_epoch(double epoch_length) {
+  void set_epoch_length(double epoch_length) {
     const bool ends = epoch_length < std::numeric_limits<double>::infinity();
     for (int k = 0; k < 2; ++k) speed[k] = ends ? longest_line[k] / epoch_length : 0.0;
   }
@@ -33,7 +33,7 @@ struct FlightLimits {
 };
 
 /// The fastest component of a velocity along each axis, and the sum of |v_x| + |v_y|. Neither depends on the order of disks.
-struct SpeedCensus {
+struct SpeedSummary {
   double fastest[2] = {0.0, 0.0};  ///< length / time
   ExactSum sum;                    ///< length / time
 
@@ -43,8 +43,8 @@ struct SpeedCensus {
       sum.add(std::abs(v[k]));
     }
   }
-  /// Adds the disks of another census.
-  void add(const SpeedCensus& other) {
+  /// Adds the disks of another summary.
+  void add(const SpeedSummary& other) {
     for (int k = 0; k < 2; ++k) fastest[k] = std::max(fastest[k], other.fastest[k]);
     sum.add(other.sum);
   }

@@ -110,7 +110,7 @@ class LoopState {
   void rebase_clock(double now);
   void multiply_velocities(double factor);
   void choose_epoch_length();
-  void suit_epoch(const SpeedCensus& speeds);
+  void choose_epoch_length(const SpeedSummary& speeds);
   [[nodiscard]] double longest_epoch_of_world() const;
   /// The room along an axis with walls that lines take in an epoch that begins at time t, and all that coordinates have: lengths.
   [[nodiscard]] double room_of_lines(int axis, double t) const;
@@ -123,7 +123,7 @@ class LoopState {
   void make_lists();
   [[nodiscard]] bool outgrow_lists() const;
   void rebuild(double half_width);
-  void suit_neighbourhoods(double half_width);
+  void set_half_width(double half_width);
   [[nodiscard]] std::vector<NeighbourhoodCentre> new_centres() const;
   void find_steps();
   /// Lets predictions read the steps of the potential where the impact has them.

@@ -27,7 +27,7 @@ class StallDetector {
 
   /// Whether the engine can go no further: time stands still, as for disks that touch on all sides and still are to move, or one
   /// of the functions below has found another reason.
-  [[nodiscard]] bool jammed() const { return at_one_instant_ > patience_; }
+  [[nodiscard]] bool is_stalled() const { return at_one_instant_ > patience_; }
 
   /// Records that these disks, or a disk and a wall, lost a share of a speed of such a `smallness` (effects/vanishing.hpp). At
   /// the end of a series of events at one instant that is a collapse: its speeds vanish, and no event follows, before patience
@@ -42,7 +42,9 @@ class StallDetector {
     if (vanishes(smallness) && at_one_instant_ >= series) at_one_instant_ = recorded_at_ = stalled;
   }
   /// The ids of the disks whose vanishing speeds stalled the engine; empty where another reason did.
-  [[nodiscard]] std::vector<std::int32_t> slow() const { return recorded_at_ == stalled ? slow_ : std::vector<std::int32_t>(); }
+  [[nodiscard]] std::vector<std::int32_t> stalled_disks() const {
+    return recorded_at_ == stalled ? slow_ : std::vector<std::int32_t>();
+  }
 
   /// Stalls the engine as cooled where speeds at the beginning of an epoch are too small to compute with (engine/epoch.hpp) and
   /// nothing will raise them.

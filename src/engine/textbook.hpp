@@ -49,9 +49,9 @@ class TextbookEngine {
 
   /// Processes every event with time <= target, then stands at target (at the last event where target is forever and none
   /// is to come) and returns true. Returns false, and stands at the last event, where totals().pair reaches `pair_limit`,
-  /// after `event_limit` events of any kind, and when stall().jammed().
+  /// after `event_limit` events of any kind, and when stall().is_stalled().
   bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) {
-    for (; totals_.pair < pair_limit && event_limit > 0 && !stall_.jammed(); --event_limit) {
+    for (; totals_.pair < pair_limit && event_limit > 0 && !stall_.is_stalled(); --event_limit) {
       const Real end = target.since<Real>(epoch_);
       const Real next = queue_.empty() ? infinity<Real> : queue_.next().time;
       if (epoch_length_ <= std::min(next, end) && epoch_length_ < infinity<Real>) {
@@ -145,9 +145,9 @@ class TextbookEngine {
     if (world_.is_open(what)) return cross_edge(i, static_cast<Wall>(what));
     Record& a = record(i);
     const Vec2<Real> before = a.v;
-    stall_.record_loss(world_.meet(what, a, impact_.rests(i, now_), impact_.slowed(now_), now_, totals_), {i});
+    stall_.record_loss(world_.meet(what, a, impact_.is_elastic(i, now_), impact_.drag_factor(now_), now_, totals_), {i});
     if (!a.v.allFinite()) return fail_after_hit(i, before);
-    impact_.touched(i, now_);
+    impact_.record_collision_time(i, now_);
     if (recording_) log_event(i, what, a.v, Vec2<Real>(0, 0));
     if (outruns_epoch(a.v, now_, box_size_)) return begin_epoch_early();
     if (world_.is_movable(what)) plan_boundaries_anew();
@@ -263,9 +263,10 @@ class TextbookEngine {
     const double speed = rms_speed(records_, [](const Record& a) -> const Vec2<Real>& { return a.v; });
     stall_.check_speeds(is_too_slow<Real>(speed, 2.0 * largest_radius_));
     if (!std::isfinite(speed)) stall_.fail("a velocity is not finite");
-    if (common_motion_.present()) impact_.owe(common_motion_.owed(records_, [](const Record& a) { return momentum(a); }));
+    if (common_motion_.present())
+      impact_.set_momentum_correction(common_motion_.momentum_correction(records_, [](const Record& a) { return momentum(a); }));
     epoch_length_ = suitable_epoch_length();
-    suit_grid();
+    rebuild_grid();
     last_collision_.rebase();
     ++totals_.numerics.epochs;
     ++totals_.numerics.list_rebuilds;
@@ -292,7 +293,7 @@ class TextbookEngine {
   /// epoch_length() for the disks as they move now.
   [[nodiscard]] Real suitable_epoch_length() const;
   /// Cells for the box as it is and for disks as large as they will become in this epoch.
-  void suit_grid();
+  void rebuild_grid();
   void find_steps();
   void leave_bonds(Continuation& continuation) const;
   void take_over_bonds(const Continuation& continuation);

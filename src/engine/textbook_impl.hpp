@@ -35,7 +35,7 @@ TextbookEngine<Real>::TextbookEngine(const Box& box, const Disks& disks, const S
     if (start.images.cols() > i) images_.col(i) = start.images.col(i);
     if (impact_.spinning() && start.spins.size() > i) impact_.spin(i) = Real(start.spins[i]);
   }
-  suit_grid();
+  rebuild_grid();
   grid_.clear();
   for (std::int32_t i = 0; i < count(); ++i) grid_.insert(i, record(i).r);
   find_steps();
@@ -87,7 +87,7 @@ void TextbookEngine<Real>::take_over_bonds(const Continuation& continuation) {
 }
 
 template <class Real>
-void TextbookEngine<Real>::suit_grid() {
+void TextbookEngine<Real>::rebuild_grid() {
   if (world_.edges.sheared()) {
     if (grid_.disks() != records_.size()) grid_ = CellGrid<Real>(world_.edges.domain(), largest_contact(), records_.size());
     const auto [from, to] = world_.edges.slide(epoch_length_ < infinity<Real> ? epoch_length_ : 0);
@@ -105,7 +105,7 @@ void TextbookEngine<Real>::suit_grid() {
   for (int axis = 0; axis < 2; ++axis)  // walls may have closed in upon each other: a grid needs some width
     now.upper[axis] = std::max(now.upper[axis], now.lower[axis] + largest_radius_);
   const Real scale = world_.expansion > 0 && epoch_length_ < infinity<Real> ? world_.scale(epoch_length_) : world_.scale_at_epoch;
-  grid_ = CellGrid<Real>(Domain<Real>(now), largest_contact() * scale * impact_.potential().reach(), records_.size());
+  grid_ = CellGrid<Real>(SimulationBox<Real>(now), largest_contact() * scale * impact_.potential().reach(), records_.size());
 }
 
 template <class Real>

@@ -113,17 +113,17 @@ struct TextbookWorld {
   }
 
   /// Changes the velocity of a disk whose record is of now by its contact with a wall or an obstacle, and keeps count. Impulses
-  /// count `slowed` times, energies its square. Returns Walls::Hit::smallness.
-  Real meet(std::int32_t what, Record& a, bool elastic, Real slowed, Real now, RunningTotals& totals) {
+  /// count `drag_factor` times, energies its square. Returns Walls::Hit::smallness.
+  Real meet(std::int32_t what, Record& a, bool elastic, Real drag_factor, Real now, RunningTotals& totals) {
     if (what <= first_obstacle) {
       ++totals.obstacle;
       const auto bounce = obstacles.bounce(first_obstacle - what, a.r, a.v, falling.g, a.mass, a.radius, a.radius * expansion);
       if (first_obstacle - what == rim) {
         const Vec2<Real> outward = (a.r - circle->centre.template cast<Real>()).normalized();
-        totals.circle_impulse.add(static_cast<double>(slowed * bounce.impulse.dot(outward)));
+        totals.circle_impulse.add(static_cast<double>(drag_factor * bounce.impulse.dot(outward)));
       } else {
         for (int k = 0; k < 2; ++k)
-          totals.obstacle_impulse[static_cast<std::size_t>(k)].add(static_cast<double>(slowed * bounce.impulse[k]));
+          totals.obstacle_impulse[static_cast<std::size_t>(k)].add(static_cast<double>(drag_factor * bounce.impulse[k]));
       }
       totals.growth_energy.add(static_cast<double>(bounce.energy));
       return infinity<Real>;
@@ -131,10 +131,10 @@ struct TextbookWorld {
     const Wall wall = static_cast<Wall>(what);
     ++totals.wall;
     const auto hit = walls.meet(wall, a.v, falling.g, a.mass, a.radius, a.radius * expansion, elastic, now);
-    totals.wall_impulse[index_of(wall)].add(static_cast<double>(slowed * hit.impulse));
-    if (hit.shear != 0) totals.wall_shear[index_of(wall)].add(static_cast<double>(slowed * hit.shear));
-    totals.wall_energy[index_of(wall)].add(static_cast<double>(slowed * slowed * hit.energy));
-    if (hit.work != 0) totals.wall_work[index_of(wall)].add(static_cast<double>(slowed * slowed * hit.work));
+    totals.wall_impulse[index_of(wall)].add(static_cast<double>(drag_factor * hit.impulse));
+    if (hit.shear != 0) totals.wall_shear[index_of(wall)].add(static_cast<double>(drag_factor * hit.shear));
+    totals.wall_energy[index_of(wall)].add(static_cast<double>(drag_factor * drag_factor * hit.energy));
+    if (hit.work != 0) totals.wall_work[index_of(wall)].add(static_cast<double>(drag_factor * drag_factor * hit.work));
     return hit.smallness;
   }
 

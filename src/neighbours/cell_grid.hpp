@@ -10,8 +10,8 @@
 // Where the images above and below slide (effects/shear.hpp), the rows of cells beyond the upper and lower edge are those of the
 // other end, displaced by any amount; slide() says by how much they may be.
 
-#include "core/domain.hpp"
 #include "core/fall_time.hpp"
+#include "core/simulation_box.hpp"
 
 #include <algorithm>
 #include <array>
@@ -39,7 +39,7 @@ template <class Real>
 class CellGrid {
  public:
   /// `reach`: the largest contact distance. Cells hold about one disk each where that is wider than reach.
-  CellGrid(const Domain<Real>& domain, Real reach, std::size_t disks) : domain_(domain) {
+  CellGrid(const SimulationBox<Real>& domain, Real reach, std::size_t disks) : domain_(domain) {
     // An exact width would do in exact arithmetic; one part in 128 covers every rounding of crossing times.
     const double at_least = static_cast<double>(reach) * (1.0 + 1.0 / 128.0);
     const double area = static_cast<double>(domain.length[0]) * static_cast<double>(domain.length[1]);
@@ -228,7 +228,7 @@ class CellGrid {
       if (j != i) visit(j, Winding(here - at(j).winding));
   }
 
-  Domain<Real> domain_;
+  SimulationBox<Real> domain_;
   std::int32_t count_[2];
   Real width_[2];
   bool sliding_ = false;

@@ -51,7 +51,7 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   using Message = DiskMessage<Line, typename Frame::DiskRest, typename Impact::DiskRest, Steps>;
 
   /// What the comparison of copies with the messages of their homes has shown.
-  struct Verdict {
+  struct HaloCheck {
     double nearest = infinity<double>;  ///< distance (length) from home of the nearest disk that was wrong; more than it is where
                                         ///< its plan alone was
     bool conflict = false;              ///< two domains hold one disk for their own
@@ -88,7 +88,7 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   }
   /// Whether the domain has come to an event that it cannot process alone, or can go no further, or has run far more events than
   /// any window is to hold: disks that collide without end are found by the whole engine, which also looks at limits between.
-  [[nodiscard]] bool stopped() const { return stopped_ || stall_.jammed() || crowded_; }
+  [[nodiscard]] bool stopped() const { return stopped_ || stall_.is_stalled() || crowded_; }
 
   /// The parts of domains that copy disks of this one, or have disks that this one copies.
   [[nodiscard]] const std::vector<std::size_t>& neighbours() const { return neighbours_; }
@@ -105,7 +105,7 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   void begin_reading();
   void read_lines(std::span<const Message> messages);
   void read_plans(std::span<const Message> messages);
-  [[nodiscard]] const Verdict& end_reading();
+  [[nodiscard]] const HaloCheck& end_reading();
 
   /// Records the collisions of disks at home from now on for collisions(), with slots of the whole engine, and all their events
   /// for logged(). A collision of disks that are at home in two domains is recorded in both.
@@ -130,7 +130,7 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   void rebase_at(double now);
   using Loop::multiply_velocities;
   /// The speeds of the disks at home.
-  [[nodiscard]] SpeedCensus census() const;
+  [[nodiscard]] SpeedSummary speed_summary() const;
   /// Puts the frame of disks that fall back to where it began.
   void reset_fall() { flight_.reset_fall(lines_); }
   /// Gives all disks neighbourhoods of that half-width, and plans them anew. Those near the rim are wrong until messages have
@@ -277,7 +277,7 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   std::uint16_t reading_ = 0;
   std::size_t homes_ = 0;
   bool crowded_ = false;  ///< there are too few slots left
-  Verdict verdict_;
+  HaloCheck halo_check_;
   std::vector<CollisionRecord> collisions_;  ///< recorded in this window
   std::vector<Event> logged_;                ///< in this window
   std::vector<RecordsBeforeRedraw> recorded_redraws_;

@@ -258,8 +258,8 @@ void BoxDomain<Impact, Layout, World>::rebase_at(double now) {
 }
 
 template <class Impact, class Layout, class World>
-SpeedCensus BoxDomain<Impact, Layout, World>::census() const {
-  SpeedCensus speeds;
+SpeedSummary BoxDomain<Impact, Layout, World>::speed_summary() const {
+  SpeedSummary speeds;
   for (std::int32_t i = 0; i < count(); ++i)
     if (mark(i).role == Role::home) speeds.add(line(i).v);
   return speeds;
@@ -269,7 +269,7 @@ template <class Impact, class Layout, class World>
 void BoxDomain<Impact, Layout, World>::rebuild_lists(double half_width) {
   const std::vector<NeighbourhoodCentre> centres = this->new_centres();
   lists_.rebuild(half_width, centres);
-  this->suit_neighbourhoods(half_width);
+  this->set_half_width(half_width);
   predict_all();
   for (auto& copied : copied_) copied.clear();
   for (Mark& each : marks_) each.copied_by = 0;

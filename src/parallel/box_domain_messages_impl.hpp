@@ -84,7 +84,7 @@ void BoxDomain<Impact, Layout, World>::begin_reading() {
   ++reading_;
   reads_.clear();
   planned_ = 0;
-  verdict_ = Verdict{};
+  halo_check_ = HaloCheck{};
 }
 
 /// Whether a copy has had the events that its home says, and is where these have brought it.
@@ -141,24 +141,24 @@ void BoxDomain<Impact, Layout, World>::read_lines(std::span<const Message> messa
     if (read->slot < 0) read->slot = slot_for(message.id);
     const std::int32_t i = read->slot;
     Mark& mine = mark(i);
-    if (mine.role == Role::home) verdict_.conflict = true;
+    if (mine.role == Role::home) halo_check_.conflict = true;
     bool changed = true;
     if (mine.role == Role::empty) {
       lists_.insert(i, message.size, message.centre);
       mine.role = Role::halo;
       halo_.push_back(i);
     } else {
-      ++verdict_.compared;
+      ++halo_check_.compared;
       const NeighbourhoodCentre centre = lists_.centre(i);
       const bool right = same_events(i, message);
       changed = !right || !same_plan(i, message);
       if (changed) {
-        ++verdict_.wrong;
+        ++halo_check_.wrong;
         // A wrong plan alone has done no harm: what it was made from is farther out, and counts there. But a disk that has just
         // come home from another domain would bring it along.
         const double harmless = right ? read_at_home() - lists_.half_width() : 0.0;
-        verdict_.nearest =
-            std::min(verdict_.nearest, std::min(parts_.outside(message.centre, me_), parts_.outside(centre, me_)) + harmless);
+        halo_check_.nearest =
+            std::min(halo_check_.nearest, std::min(parts_.outside(message.centre, me_), parts_.outside(centre, me_)) + harmless);
         if (centre.x != message.centre.x || centre.y != message.centre.y) {
           const std::uint64_t changes = lists_.changes();
           (void)lists_.move_neighbourhood(i, message.centre);
@@ -200,8 +200,8 @@ void BoxDomain<Impact, Layout, World>::read_plans(std::span<const Message> messa
 }
 
 template <class Impact, class Layout, class World>
-const typename BoxDomain<Impact, Layout, World>::Verdict& BoxDomain<Impact, Layout, World>::end_reading() {
-  if (crowded_) return verdict_;  // what has not been read may be near: disks at home keep the plans that name it
+const typename BoxDomain<Impact, Layout, World>::HaloCheck& BoxDomain<Impact, Layout, World>::end_reading() {
+  if (crowded_) return halo_check_;  // what has not been read may be near: disks at home keep the plans that name it
   std::size_t kept = 0;
   for (const std::int32_t i : halo_) {
     if (mark(i).read == reading_) {
@@ -210,14 +210,14 @@ const typename BoxDomain<Impact, Layout, World>::Verdict& BoxDomain<Impact, Layo
     }
     // Its home has it too far away to tell of it. Where it is not so here, something has gone wrong.
     if (const double outside = parts_.outside(lists_.centre(i), me_); outside <= reach_) {
-      ++verdict_.compared, ++verdict_.wrong;
-      verdict_.nearest = std::min(verdict_.nearest, outside);
+      ++halo_check_.compared, ++halo_check_.wrong;
+      halo_check_.nearest = std::min(halo_check_.nearest, outside);
     }
     leave(i);
   }
   halo_.resize(kept);
   limit_events();
-  return verdict_;
+  return halo_check_;
 }
 
 }  // namespace carom

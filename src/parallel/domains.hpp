@@ -83,7 +83,7 @@ class Domains {
   [[nodiscard]] Instant now() const;
   void set_back(const Instant& time);
   /// Tells that the whole engine, which has the disks, has begun an epoch on another clock.
-  void begin_anew() { alone_until_.reset(), epoch_of_void_one_ = {-infinity<double>, 0.0}; }
+  void begin_anew() { alone_until_.reset(), last_void_epoch_ = {-infinity<double>, 0.0}; }
   [[nodiscard]] const ThreadCounts& thread_counts() const { return done_; }
   [[nodiscard]] std::size_t bytes() const;
 
@@ -95,12 +95,12 @@ class Domains {
   enum class Next : std::uint8_t {
     window,
     epoch,
-    arrived,   ///< at the target
-    balance,   ///< borders are to be moved, or coordinates made coarser
-    counted,   ///< as many collisions or events as were asked for have happened
-    outgrown,  ///< disks have become too large for their lists
-    void_one,  ///< the window was void, or the epoch begins with what one engine alone can do
-    failed     ///< something was thrown
+    arrived,       ///< at the target
+    balance,       ///< borders are to be moved, or coordinates made coarser
+    counted,       ///< as many collisions or events as were asked for have happened
+    outgrown,      ///< disks have become too large for their lists
+    whole_engine,  ///< the window was void, or the epoch begins with what one engine alone can do
+    failed         ///< something was thrown
   };
 
   /// What rank 0 has the other ranks do.
@@ -116,7 +116,7 @@ class Domains {
   /// What rank 0 needs to know of a domain to decide how to go on.
   struct Facts {
     Counts counts;  ///< since they were added to those of the whole engine
-    typename Part::Verdict verdict;
+    typename Part::HaloCheck halo_check;
     std::uint64_t homes = 0;
     std::uint64_t events = 0, copied_events = 0;  ///< in the last window
     std::uint64_t longest_list = 0;               ///< when neighbourhoods were last made anew
@@ -142,7 +142,7 @@ class Domains {
   };
 
   /// The next event of all, where a run goes to an exact number of collisions: what a rank has to offer, and what rank 0 chooses.
-  struct Turn {
+  struct NextEvent {
     double time = infinity<double>;
     std::uint64_t pairs = 0;
     std::uint64_t domain = none;
@@ -156,10 +156,10 @@ class Domains {
   [[nodiscard]] std::size_t rank_count() const { return ranks_ == nullptr ? 1 : static_cast<std::size_t>(ranks_->size()); }
   [[nodiscard]] std::size_t count() const { return domains_.size(); }
   [[nodiscard]] std::size_t rank_of(std::size_t domain) const { return domain * rank_count() / count(); }
-  [[nodiscard]] bool is_here(std::size_t domain) const { return domain >= begin_ && domain < end_of_here_; }
+  [[nodiscard]] bool is_here(std::size_t domain) const { return domain >= first_domain_ && domain < end_domain_; }
   /// The domains of this rank.
   [[nodiscard]] std::span<const std::unique_ptr<Part>> here() const {
-    return std::span(domains_).subspan(begin_, end_of_here_ - begin_);
+    return std::span(domains_).subspan(first_domain_, end_domain_ - first_domain_);
   }
   /// Calls f(domain, reader) on rank 0 for all domains of other ranks: for what those have gathered.
   template <class F>
@@ -181,7 +181,7 @@ class Domains {
   void gather_records();
   void exchange_messages();
   void tell_decision();
-  [[nodiscard]] Turn choose(const Turn& mine, std::uint64_t before);
+  [[nodiscard]] NextEvent choose(const NextEvent& mine, std::uint64_t before);
 
   [[nodiscard]] std::string engine_as_bytes();
   void take_share(std::string_view bytes);
@@ -217,7 +217,7 @@ class Domains {
   void adapt_window(double margin, bool whole_window);
   void lead_epoch();
   void end_of_epoch();
-  void watch_speeds(const SpeedCensus& speeds) { fastest_ = std::max(speeds.fastest[0], speeds.fastest[1]); }
+  void watch_speeds(const SpeedSummary& speeds) { fastest_ = std::max(speeds.fastest[0], speeds.fastest[1]); }
   void hand_over_records();
   void count_steps() {
     if constexpr (!Impact::plain)
@@ -281,7 +281,7 @@ class Domains {
   template <class F>
   void each(std::size_t thread, F&& f) {
     try {
-      for (std::size_t d = begin_ + thread; d < end_of_here_; d += team_.size()) {
+      for (std::size_t d = first_domain_ + thread; d < end_domain_; d += team_.size()) {
         const double before = thread_seconds();
         f(d);
         seconds_[d] += thread_seconds() - before;
@@ -294,10 +294,10 @@ class Domains {
   Loop& whole_;
   Whole& engine_;
   Threads threads_;
-  Ranks* ranks_;                 ///< null: there is no other
-  Redraws* redraws_;             ///< null: there are none
-  std::size_t begin_ = 0;        ///< the domains of this rank: from here
-  std::size_t end_of_here_ = 0;  ///< up to and without this one
+  Ranks* ranks_;                  ///< null: there is no other
+  Redraws* redraws_;              ///< null: there are none
+  std::size_t first_domain_ = 0;  ///< the domains of this rank: from here
+  std::size_t end_domain_ = 0;    ///< up to and without this one
   Team team_;
   Team::Failure failure_;
   std::string failure_elsewhere_;         ///< on another rank, in its words
@@ -316,17 +316,17 @@ class Domains {
   std::vector<std::vector<CollisionRecord>> collisions_elsewhere_;  ///< by domain of another rank, in this window
   std::vector<std::vector<Event>> events_elsewhere_;
   std::vector<std::vector<RecordsBeforeRedraw>> redraws_elsewhere_;
-  std::vector<std::int32_t> slot_of_id_;          ///< of the whole engine
-  std::vector<NeighbourhoodCentre> centres_;      ///< by slot of the whole engine
-  std::vector<typename Part::Verdict> verdicts_;  ///< by domain
-  std::vector<double> seconds_;                   ///< processor time of each domain since all met
-  std::vector<double> epoch_seconds_;             ///< the same in this epoch
-  std::vector<double> cost_of_disk_;   ///< processor time of each disk of a domain in the last epoch; empty where not measured
-  int unbalanced_for_ = 0;             ///< epochs
-  std::vector<SpeedCensus> censuses_;  ///< by domain
+  std::vector<std::int32_t> slot_of_id_;               ///< of the whole engine
+  std::vector<NeighbourhoodCentre> centres_;           ///< by slot of the whole engine
+  std::vector<typename Part::HaloCheck> halo_checks_;  ///< by domain
+  std::vector<double> seconds_;                        ///< processor time of each domain since all met
+  std::vector<double> epoch_seconds_;                  ///< the same in this epoch
+  std::vector<double> cost_of_disk_;  ///< processor time of each disk of a domain in the last epoch; empty where not measured
+  int unbalanced_for_ = 0;            ///< epochs
+  std::vector<SpeedSummary> speed_summaries_;  ///< by domain
   std::vector<std::uint64_t> longest_lists_;
-  std::optional<Instant> alone_until_;                 ///< the whole engine goes on until then
-  Instant epoch_of_void_one_{-infinity<double>, 0.0};  ///< the last one with a window that was void
+  std::optional<Instant> alone_until_;               ///< the whole engine goes on until then
+  Instant last_void_epoch_{-infinity<double>, 0.0};  ///< the last epoch with a window that was void
 
   double now_ = 0.0;     ///< since the epoch
   double window_ = 0.0;  ///< length of the next
@@ -338,31 +338,31 @@ class Domains {
   std::size_t most_redraws_ = 0;                    ///< of them that happen: all, if the limit of collisions does not come before
   std::vector<ExactSum> redraw_energies_;           ///< by domain: gained in this window
   bool window_begins_ = false;                      ///< and other ranks do not know it yet
-  double target_ = 0.0;                             ///< the same since the epoch
+  double target_ = 0.0;                             ///< end of the run, since the epoch
   double fastest_ = 0.0;                            ///< component of a velocity that there has been in this epoch
   std::uint64_t pair_limit_ = 0, event_limit_ = 0;  ///< of counts()
   std::uint64_t counted_ = 0;                       ///< collisions at the end of the last part of a window
   double part_ = 0.0;                               ///< collisions that this part was to bring
-  std::uint64_t pairs_before_ = 0;                  ///< the window
+  std::uint64_t pairs_at_window_begin_ = 0;         ///< collisions of pairs when the window began
   double pair_rate_ = 0.0;                          ///< collisions of pairs per time, to be expected
-  double rate_begun_with_ = 0.0;                    ///< pair_rate_ when the window began
+  double pair_rate_at_window_begin_ = 0.0;          ///< pair_rate_ when the window began
   double longest_end_ = 0.0;                        ///< of the window, if the limit of collisions does not come before
   bool counting_ = false;                           ///< the limit of collisions may come in this window
   bool stepping_ = false;                           ///< the last events before it are processed one by one
-  bool at_limit_ = false;                           ///< they were
+  bool at_limit_ = false;                           ///< the last events before the limit were processed one by one
   double stepped_to_ = 0.0;                         ///< time of the last of them
-  std::uint64_t events_begun_with_ = 0;             ///< the window
-  std::uint64_t events_before_ = 0;                 ///< the run
+  std::uint64_t events_at_window_begin_ = 0;        ///< events when the window began
+  std::uint64_t events_at_run_begin_ = 0;           ///< events when the run began
   Next next_ = Next::window;
   double half_width_ = 0.0;
   bool lists_change_ = false, plans_change_ = false, has_fallen_ = false;  ///< in the epoch that begins
   std::array<std::int64_t, 2> fallen_{};                                   ///< by so many steps
   std::optional<double>
       factor_;  ///< by which velocities change as the epoch begins; else it begins since the one before has ended
-  Vec2<double> owed_ = Vec2<double>::Zero();  ///< momentum: see CommonMotion
-  int calm_ = 0;                              ///< windows in which nothing wrong came near
-  double calm_margin_ = 0.0;
-  std::uint64_t collisions_told_ = 0, events_told_ = 0;  ///< recorded since the whole engine was up to date
+  Vec2<double> momentum_correction_ = Vec2<double>::Zero();  ///< see CommonMotion
+  int windows_since_adapted_ = 0;  ///< windows since the length was adapted, in which nothing wrong came near
+  double least_margin_ = 0.0;
+  std::uint64_t collisions_delivered_ = 0, events_delivered_ = 0;  ///< recorded since the whole engine was up to date
   ThreadCounts done_;
 };
 

@@ -10,7 +10,7 @@ void Domains<Impact, Layout, World>::run_epoch(std::size_t thread) {
   each(thread, [&](std::size_t d) {
     domains_[d]->rebase_at(now_);
     if (factor_) domains_[d]->multiply_velocities(*factor_);
-    censuses_[d] = domains_[d]->census();
+    speed_summaries_[d] = domains_[d]->speed_summary();
     if (gives_momentum_back()) domains_[d]->store(whole_, slot_of_id_, centres_);
   });
   meet(
@@ -53,17 +53,18 @@ void Domains<Impact, Layout, World>::run_epoch(std::size_t thread) {
 /// Begins an epoch in the whole engine: see EventLoop::begin_epoch().
 template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::lead_epoch() {
-  SpeedCensus speeds;
-  for (const SpeedCensus& census : censuses_) speeds.add(census);
+  SpeedSummary speeds;
+  for (const SpeedSummary& summary : speed_summaries_) speeds.add(summary);
   watch_speeds(speeds);
   whole_.impact_.rebase(now_);
   whole_.rebase_clock(now_);
   whole_.stamp_ = 1;
-  owed_.setZero();
+  momentum_correction_.setZero();
   if constexpr (!Impact::plain)
     if (gives_momentum_back()) {
-      owed_ = whole_.common_motion_.owed(whole_.lines_, [this](const auto& line) { return whole_.layout_.momentum(line); });
-      whole_.impact_.owe(owed_);
+      momentum_correction_ = whole_.common_motion_.momentum_correction(
+          whole_.lines_, [this](const auto& line) { return whole_.layout_.momentum(line); });
+      whole_.impact_.set_momentum_correction(momentum_correction_);
     }
   has_fallen_ = whole_.world_.falls() && whole_.flight_.has_fallen(4.0 * whole_.sizes_.spacing);
   if (has_fallen_) {
@@ -81,9 +82,9 @@ void Domains<Impact, Layout, World>::lead_epoch() {
   if (half_width != half_width_) {
     half_width_ = half_width;
     ++whole_.totals_.numerics.list_rebuilds;
-    whole_.suit_neighbourhoods(half_width);
+    whole_.set_half_width(half_width);
   }
-  whole_.suit_epoch(speeds);
+  whole_.choose_epoch_length(speeds);
   if (whole_.outgrow_lists()) {
     now_ = 0.0;
     next_ = Next::outgrown;
@@ -100,13 +101,14 @@ void Domains<Impact, Layout, World>::end_of_epoch() {
   count_steps();
   keep_redraws();
   all_stored_here_ = ranks_ == nullptr;
-  collisions_told_ = events_told_ = 0;
+  collisions_delivered_ = events_delivered_ = 0;
   now_ = 0.0;
   target_ = std::max(now_, end_.template since<double>(whole_.epoch_));
   if (has_failed())
     next_ = Next::failed;
-  else if (whole_.stall_.jammed() || whole_.idle() || !owed_.isZero(0.0))  // which one engine alone is to give the disks
-    next_ = Next::void_one, alone_until_ = whole_.epoch_.plus(whole_.epoch_length_);
+  else if (whole_.stall_.is_stalled() || whole_.idle() ||
+           !momentum_correction_.isZero(0.0))  // which one engine alone is to give the disks
+    next_ = Next::whole_engine, alone_until_ = whole_.epoch_.plus(whole_.epoch_length_);
   else if (note_imbalance() || 2.5 * half_width_ > reach_)  // halos hold all disks that new neighbourhoods bring to another home
     next_ = Next::balance;
   else if (factor_)

@@ -33,12 +33,12 @@ template <class Impact, class Layout, class World>
 bool Domains<Impact, Layout, World>::run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit,
                                                bool exact_events) {
   constexpr auto no_limit = std::numeric_limits<std::uint64_t>::max();
-  const std::uint64_t told = detail::all_events(counts());
+  const std::uint64_t delivered = detail::all_events(counts());
   const bool exact = exact_events && event_limit < no_limit;
   const auto alone = [&](const Instant& until) {
     gather();
     // After a window that was void the whole engine stands before what the caller knows of already.
-    const std::uint64_t behind = told - std::min(told, detail::all_events(counts()));
+    const std::uint64_t behind = delivered - std::min(delivered, detail::all_events(counts()));
     const std::uint64_t limit = behind < no_limit - event_limit ? event_limit + behind : no_limit;
     const std::uint64_t before = detail::all_events(whole_.totals_);
     const bool arrived =
@@ -52,7 +52,7 @@ bool Domains<Impact, Layout, World>::run_until(const Instant& target, std::uint6
       if (!alone(redraws_->time())) return false;  // the first that moves
       continue;
     }
-    if (so_far.pair >= pair_limit || exact || whole_.idle() || whole_.stall_.jammed() || whole_.lines_.size() < 2)
+    if (so_far.pair >= pair_limit || exact || whole_.idle() || whole_.stall_.is_stalled() || whole_.lines_.size() < 2)
       return alone(target);
     if (alone_until_) {
       const Instant until = std::min(target, *alone_until_);
@@ -66,7 +66,7 @@ bool Domains<Impact, Layout, World>::run_until(const Instant& target, std::uint6
     end_ = target;
     pair_limit_ = pair_limit;
     event_limit_ = event_limit;
-    events_before_ = done_.events;
+    events_at_run_begin_ = done_.events;
     begin_window();
     if (ranks_ != nullptr) order(Order::run);
     tell_decision();
@@ -134,14 +134,14 @@ void Domains<Impact, Layout, World>::end_run() {
     case Next::outgrown:
       update();
       take_back([this] { whole_.list_larger(); });
-      if (!owed_.isZero(0.0)) alone_until_ = whole_.epoch_.plus(whole_.epoch_length_);
+      if (!momentum_correction_.isZero(0.0)) alone_until_ = whole_.epoch_.plus(whole_.epoch_length_);
       break;
     case Next::failed:
       restore_redraws();
       go_back();
       throw_failure();
       break;
-    case Next::void_one:
+    case Next::whole_engine:
       restore_redraws();
       go_back();
       break;
@@ -187,8 +187,8 @@ void Domains<Impact, Layout, World>::make_domains() {
   domains_.clear();
   domains_.resize(parts_->count());
   const auto me = static_cast<std::size_t>(ranks_ == nullptr ? 0 : ranks_->rank());
-  for (begin_ = 0; begin_ < count() && rank_of(begin_) < me;) ++begin_;
-  for (end_of_here_ = begin_; end_of_here_ < count() && rank_of(end_of_here_) == me;) ++end_of_here_;
+  for (first_domain_ = 0; first_domain_ < count() && rank_of(first_domain_) < me;) ++first_domain_;
+  for (end_domain_ = first_domain_; end_domain_ < count() && rank_of(end_domain_) == me;) ++end_domain_;
   facts_.assign(count(), {});
   inboxes_.assign(count(), {});
   stored_.assign(count(), {});
@@ -198,15 +198,15 @@ void Domains<Impact, Layout, World>::make_domains() {
   redraw_energies_.assign(count(), {});
   seconds_.assign(count(), 0.0);
   epoch_seconds_.assign(count(), 0.0);
-  verdicts_.resize(count());
-  censuses_.resize(count());
+  halo_checks_.resize(count());
+  speed_summaries_.resize(count());
   longest_lists_.assign(count(), 0);
   other_ranks_.clear();
   team_.run([&](std::size_t thread) {
     each(thread, [&](std::size_t d) { domains_[d] = std::make_unique<Part>(whole_, *parts_, d, reach_); });
   });
   if (failure_.any()) return;
-  for (std::size_t d = begin_; d < end_of_here_; ++d) {
+  for (std::size_t d = first_domain_; d < end_domain_; ++d) {
     inboxes_[d].resize(domains_[d]->neighbours().size());
     for (const std::size_t other : domains_[d]->neighbours())
       if (!is_here(other)) other_ranks_.push_back(rank_of(other));
@@ -223,13 +223,13 @@ void Domains<Impact, Layout, World>::leave_to_domains() {
   for (const auto& domain : here()) domain->record(whole_.recorder_.listening(), whole_.recorder_.logging(), slot_of_id_);
   whole_.recorder_.log_elsewhere(true);
   all_stored_here_ = true;
-  collisions_told_ = events_told_ = 0;
+  collisions_delivered_ = events_delivered_ = 0;
   keep_redraws();
   whole_.lists_.clear();
   whole_.queue_.clear();
   shared_ = up_to_date_ = true;
   now_ = whole_.now_;
-  SpeedCensus speeds;
+  SpeedSummary speeds;
   for (const auto& line : whole_.lines_) speeds.add(line.v);
   watch_speeds(speeds);
   const auto disks = static_cast<double>(whole_.lines_.size());
@@ -260,7 +260,7 @@ void Domains<Impact, Layout, World>::update() {
   whole_.stamp_ = 1;
   whole_.now_ = now_;
   keep_redraws();
-  collisions_told_ = events_told_ = 0;
+  collisions_delivered_ = events_delivered_ = 0;
   up_to_date_ = true;
 }
 
@@ -295,7 +295,7 @@ void Domains<Impact, Layout, World>::take_back(MakeLists&& make_lists) {
     make_lists();
     whole_.start_queue();
     whole_.recorder_.log_elsewhere(false);
-    whole_.recorder_.skip(collisions_told_, events_told_);
+    whole_.recorder_.skip(collisions_delivered_, events_delivered_);
     shared_ = false;
     up_to_date_ = true;
   });

@@ -100,11 +100,11 @@ void Domains<Impact, Layout, World>::gather_failures() {
 template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::gather_facts(bool window_over) {
   Packet packet;
-  for (std::size_t d = begin_; d < end_of_here_; ++d) {
+  for (std::size_t d = first_domain_; d < end_domain_; ++d) {
     Part& domain = *domains_[d];
     Facts& facts = facts_[d];
     facts.counts = domain.counts();
-    facts.verdict = verdicts_[d];
+    facts.halo_check = halo_checks_[d];
     facts.homes = domain.homes();
     if (window_over) {
       std::tie(facts.events, facts.copied_events) = domain.take_events_done();
@@ -132,20 +132,20 @@ void Domains<Impact, Layout, World>::gather_facts(bool window_over) {
 template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::gather_counts() {
   Packet packet;
-  for (std::size_t d = begin_; d < end_of_here_; ++d) {
+  for (std::size_t d = first_domain_; d < end_domain_; ++d) {
     const typename Part::Counted counted = domains_[d]->take_counts();
     if (first()) {
       Part::add_counts(whole_, counted);
     } else {
       packet.put(counted);
-      packet.put(censuses_[d]);
+      packet.put(speed_summaries_[d]);
     }
   }
   for (Facts& facts : facts_) facts.counts = {};
   if (ranks_ == nullptr) return;
   from_others(ranks_->gather(packet.bytes()), [this](std::size_t d, PacketReader& reader) {
     Part::add_counts(whole_, reader.take<typename Part::Counted>());
-    censuses_[d] = reader.take<SpeedCensus>();
+    speed_summaries_[d] = reader.take<SpeedSummary>();
   });
 }
 
@@ -156,7 +156,7 @@ void Domains<Impact, Layout, World>::gather_disks(bool stored) {
   std::vector<typename Part::Message> messages;
   Packet packet;
   if (!first()) {
-    for (std::size_t d = begin_; d < end_of_here_; ++d) {
+    for (std::size_t d = first_domain_; d < end_domain_; ++d) {
       if (!stored) {
         domains_[d]->append_homes(messages);
         continue;
@@ -200,7 +200,7 @@ void Domains<Impact, Layout, World>::exchange_messages() {
     std::uint64_t from, to, count;
   };
   std::vector<Packet> packets(rank_count());
-  for (std::size_t d = begin_; d < end_of_here_; ++d) {
+  for (std::size_t d = first_domain_; d < end_domain_; ++d) {
     const Part& domain = *domains_[d];
     for (std::size_t n = 0; n < domain.neighbours().size(); ++n) {
       const std::size_t other = domain.neighbours()[n];
@@ -251,30 +251,30 @@ void Domains<Impact, Layout, World>::tell_decision() {
                         .has_fallen = has_fallen_});
   ranks_->broadcast(packet.bytes());
   if (first()) return;
-  const auto told = PacketReader(packet.bytes()).take<Decision>();
-  now_ = told.now;
-  window_end_ = told.window_end;
-  longest_end_ = told.longest_end;
-  half_width_ = told.half_width;
-  whole_.epoch_length_ = told.epoch_length;
-  whole_.frame_.edge_step = told.edge_step;
-  whole_.limits_ = told.limits;
-  whole_.epoch_ = told.epoch;
-  end_ = told.end;
-  if (redraws_ != nullptr && told.window_begins) {
-    redraws_->set_end(told.redraw_end);
-    redraws_->go_on_at(told.redraw_number, told.redraw_time);
+  const auto decision = PacketReader(packet.bytes()).take<Decision>();
+  now_ = decision.now;
+  window_end_ = decision.window_end;
+  longest_end_ = decision.longest_end;
+  half_width_ = decision.half_width;
+  whole_.epoch_length_ = decision.epoch_length;
+  whole_.frame_.edge_step = decision.edge_step;
+  whole_.limits_ = decision.limits;
+  whole_.epoch_ = decision.epoch;
+  end_ = decision.end;
+  if (redraws_ != nullptr && decision.window_begins) {
+    redraws_->set_end(decision.redraw_end);
+    redraws_->go_on_at(decision.redraw_number, decision.redraw_time);
     draw_redraws();
-    window_end_ = told.window_end;
+    window_end_ = decision.window_end;
   }
-  fallen_ = told.fallen;
-  factor_ = told.factor;
-  next_ = told.next;
-  counting_ = told.counting;
-  stepping_ = told.stepping;
-  lists_change_ = told.lists_change;
-  plans_change_ = told.plans_change;
-  has_fallen_ = told.has_fallen;
+  fallen_ = decision.fallen;
+  factor_ = decision.factor;
+  next_ = decision.next;
+  counting_ = decision.counting;
+  stepping_ = decision.stepping;
+  lists_change_ = decision.lists_change;
+  plans_change_ = decision.plans_change;
+  has_fallen_ = decision.has_fallen;
 }
 
 }  // namespace carom

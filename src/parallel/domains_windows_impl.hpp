@@ -22,16 +22,16 @@ void Domains<Impact, Layout, World>::work(std::size_t thread) {
 template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::begin_window() {
   up_to_date_ = false;
-  pairs_before_ = counts().pair;
-  rate_begun_with_ = pair_rate_;
-  events_begun_with_ = done_.events;
+  pairs_at_window_begin_ = counts().pair;
+  pair_rate_at_window_begin_ = pair_rate_;
+  events_at_window_begin_ = done_.events;
   window_end_ = longest_end_ = std::min({now_ + window_, target_, whole_.epoch_length_});
-  const double expected = pair_rate_ * (window_end_ - now_), left = static_cast<double>(pair_limit_ - pairs_before_);
+  const double expected = pair_rate_ * (window_end_ - now_), left = static_cast<double>(pair_limit_ - pairs_at_window_begin_);
   counting_ = expected + 4.0 * std::sqrt(expected) + 64.0 > left;
   if (redraws_ != nullptr) draw_redraws();
   if (counting_) window_end_ = now_;
   window_begins_ = true;
-  counted_ = pairs_before_;
+  counted_ = pairs_at_window_begin_;
   part_ = 0.0;
   at_limit_ = false;
   next_ = Next::window;
@@ -88,16 +88,16 @@ void Domains<Impact, Layout, World>::step_to_limit() {
   bool blocked = false;
   for (most_redraws_ = 0; most_redraws_ < due_.size() && time_of(due_[most_redraws_]) <= window_end_;) ++most_redraws_;
   for (;;) {
-    Turn mine;
+    NextEvent mine;
     mine.blocked = blocked;
-    for (std::size_t d = begin_; d < end_of_here_; ++d) {
+    for (std::size_t d = first_domain_; d < end_domain_; ++d) {
       mine.pairs += domains_[d]->counts().pair;
       if (const double next = domains_[d]->next_time(); next < mine.time) mine.time = next, mine.domain = d;
     }
-    const Turn chosen = choose(mine, before);
-    if (chosen.domain == Turn::none) return;
+    const NextEvent chosen = choose(mine, before);
+    if (chosen.domain == NextEvent::none) return;
     blocked = false;
-    if (chosen.domain == Turn::redraw) {
+    if (chosen.domain == NextEvent::redraw) {
       const std::uint64_t number = due_[most_redraws_].number;
       while (most_redraws_ < due_.size() && due_[most_redraws_].number == number) ++most_redraws_;
       for (const auto& domain : here()) domain->redraw_next(), blocked = blocked || domain->stopped();
@@ -109,14 +109,15 @@ void Domains<Impact, Layout, World>::step_to_limit() {
 
 /// Chooses the next event from what all ranks offer: none at the limit of collisions, and at the end of the window.
 template <class Impact, class Layout, class World>
-typename Domains<Impact, Layout, World>::Turn Domains<Impact, Layout, World>::choose(const Turn& mine, std::uint64_t before) {
-  Turn all = mine;
+typename Domains<Impact, Layout, World>::NextEvent Domains<Impact, Layout, World>::choose(const NextEvent& mine,
+                                                                                          std::uint64_t before) {
+  NextEvent all = mine;
   if (ranks_ != nullptr) {
     Packet packet;
     packet.put(mine);
     const std::vector<std::string> gathered = ranks_->gather(packet.bytes());
     for (std::size_t rank = 1; rank < gathered.size(); ++rank) {
-      const auto other = PacketReader(gathered[rank]).take<Turn>();
+      const auto other = PacketReader(gathered[rank]).take<NextEvent>();
       all.pairs += other.pairs;
       all.blocked = all.blocked || other.blocked;
       if (other.time < all.time) all.time = other.time, all.domain = other.domain;
@@ -124,13 +125,13 @@ typename Domains<Impact, Layout, World>::Turn Domains<Impact, Layout, World>::ch
   }
   if (first()) {
     if (most_redraws_ < due_.size() && time_of(due_[most_redraws_]) < all.time)
-      all.time = time_of(due_[most_redraws_]), all.domain = Turn::redraw;
+      all.time = time_of(due_[most_redraws_]), all.domain = NextEvent::redraw;
     window_end_ = all.blocked ? longest_end_ : std::max(window_end_, stepped_to_);
     if (all.blocked || before + all.pairs >= pair_limit_) {
-      all.domain = Turn::none;
-    } else if (all.domain == Turn::none || all.time > longest_end_) {
+      all.domain = NextEvent::none;
+    } else if (all.domain == NextEvent::none || all.time > longest_end_) {
       window_end_ = longest_end_;
-      all.domain = Turn::none;
+      all.domain = NextEvent::none;
     }
     stepped_to_ = all.time;
     all.time = window_end_;
@@ -139,7 +140,7 @@ typename Domains<Impact, Layout, World>::Turn Domains<Impact, Layout, World>::ch
     Packet packet;
     packet.put(all);
     ranks_->broadcast(packet.bytes());
-    all = PacketReader(packet.bytes()).take<Turn>();
+    all = PacketReader(packet.bytes()).take<NextEvent>();
     window_end_ = all.time;
   }
   return all;
@@ -160,7 +161,7 @@ void Domains<Impact, Layout, World>::read_messages(std::size_t d) {
   domain.begin_reading();
   from_all([&](auto messages) { domain.read_lines(messages); });
   from_all([&](auto messages) { domain.read_plans(messages); });
-  verdicts_[d] = domain.end_reading();
+  halo_checks_[d] = domain.end_reading();
 }
 
 template <class Impact, class Layout, class World>
@@ -198,14 +199,14 @@ void Domains<Impact, Layout, World>::decide() {
   bool stopped = false;
   for (const Facts& facts : facts_) {
     homes += facts.homes;
-    stopped = stopped || facts.stopped || facts.verdict.conflict;
-    nearest = std::min(nearest, facts.verdict.nearest);
+    stopped = stopped || facts.stopped || facts.halo_check.conflict;
+    nearest = std::min(nearest, facts.halo_check.nearest);
     allowed = std::max(allowed, facts.read_at_home);
     fastest_ = std::max(fastest_, facts.fastest);  // a distance from home is that along one axis
     done_.events += facts.events;
     done_.copied_events += facts.copied_events;
-    done_.copies += facts.verdict.compared;
-    done_.copies_wrong += facts.verdict.wrong;
+    done_.copies += facts.halo_check.compared;
+    done_.copies_wrong += facts.halo_check.wrong;
   }
   const std::uint64_t happened = done_.events;
   allowed += fastest_ * (window_end_ - now_) + half_width_;
@@ -214,7 +215,7 @@ void Domains<Impact, Layout, World>::decide() {
   if (parts_->thinnest() < half_width_) allowed += half_width_;
   const std::uint64_t pairs = counts().pair;
   const double length = window_end_ - now_;
-  const double rate = length > 0.0 ? static_cast<double>(pairs - pairs_before_) / length : 0.0;
+  const double rate = length > 0.0 ? static_cast<double>(pairs - pairs_at_window_begin_) / length : 0.0;
   const bool missed = pairs > pair_limit_ || (pairs == pair_limit_ && !at_limit_);  // the time of the last collision is not known
   if (has_failed()) {
     next_ = Next::failed;
@@ -222,21 +223,21 @@ void Domains<Impact, Layout, World>::decide() {
     ++done_.windows_redone;
     if (nearest <= allowed) window_ = std::max(0.5 * window_, shortest_window_);
     if (missed) pair_rate_ = 2.0 * std::max(pair_rate_, rate);
-    next_ = Next::void_one;
+    next_ = Next::whole_engine;
     // The whole engine begins where the epoch did, and to share out its disks costs too: a second time it goes to the end.
-    const bool again = !(epoch_of_void_one_ < whole_.epoch_);
-    epoch_of_void_one_ = whole_.epoch_;
+    const bool again = !(last_void_epoch_ < whole_.epoch_);
+    last_void_epoch_ = whole_.epoch_;
     alone_until_ = whole_.epoch_.plus(again ? whole_.epoch_length_ : window_end_);
   } else {
     // After a start from a lattice there are few collisions at first, and then many: the last window alone may say too little.
-    pair_rate_ = std::max(0.75 * rate_begun_with_, pairs > pairs_before_ + 200 ? rate : 0.0);
+    pair_rate_ = std::max(0.75 * pair_rate_at_window_begin_, pairs > pairs_at_window_begin_ + 200 ? rate : 0.0);
     hand_over_records();
     if (redraws_ != nullptr) count_redraws();
     const bool whole_window = length >= 0.99 * window_;  // not cut short by a sample or an epoch
     now_ = window_end_;
     adapt_window(nearest - allowed, whole_window);
     const bool on_the_way = now_ != whole_.epoch_length_ && now_ != target_;
-    if (pairs == pair_limit_ || (on_the_way && happened - events_before_ >= event_limit_))
+    if (pairs == pair_limit_ || (on_the_way && happened - events_at_run_begin_ >= event_limit_))
       next_ = Next::counted;
     else if (now_ == whole_.epoch_length_)
       begin_epoch_next();
@@ -283,7 +284,7 @@ void Domains<Impact, Layout, World>::hand_over_records() {
         lists, [&](const Event& a, const Event& b) { return time(a) < time(b); },
         [](const Event& a, const Event& b) { return std::tie(a.disk, a.partner) < std::tie(b.disk, b.partner); },
         [&](const Event& event) {
-          recorder.append({&event, 1}), ++events_told_;
+          recorder.append({&event, 1}), ++events_delivered_;
         });
   }
   if (recorder.listening()) {
@@ -296,7 +297,7 @@ void Domains<Impact, Layout, World>::hand_over_records() {
     merge_records<CollisionRecord>(
         lists, [](const CollisionRecord& a, const CollisionRecord& b) { return a.time < b.time; },
         [&](const CollisionRecord& a, const CollisionRecord& b) { return ids(a) < ids(b); },
-        [&](const CollisionRecord& record) { recorder.hand_on(record), ++collisions_told_; });
+        [&](const CollisionRecord& record) { recorder.hand_on(record), ++collisions_delivered_; });
   }
   for (const auto& domain : here()) domain->clear_records();
 }
@@ -307,21 +308,21 @@ void Domains<Impact, Layout, World>::adapt_window(double margin, bool whole_wind
   const double contact = this->contact();
   // Disks have become slow, or never were as fast as the first events of all seemed to say.
   const auto events_of_a_disk =
-      static_cast<double>(done_.events - events_begun_with_) / static_cast<double>(whole_.lines_.size());
+      static_cast<double>(done_.events - events_at_window_begin_) / static_cast<double>(whole_.lines_.size());
   const bool roomy = margin > 2.0 * contact + 2.0 * fastest_ * window_;
   if (whole_window && (events_of_a_disk < 1.0 / 32.0 || (events_of_a_disk < 0.25 && roomy))) {
     window_ *= 2.0;
-    calm_ = 0;
+    windows_since_adapted_ = 0;
     return;
   }
-  calm_margin_ = calm_ == 0 ? margin : std::min(calm_margin_, margin);
-  ++calm_;
+  least_margin_ = windows_since_adapted_ == 0 ? margin : std::min(least_margin_, margin);
+  ++windows_since_adapted_;
   if (margin < contact) {
     window_ = std::max(0.8 * window_, shortest_window_);
-    calm_ = 0;
-  } else if (calm_ >= 20) {
-    if (calm_margin_ > 3.0 * contact) window_ *= 1.05;
-    calm_ = 0;
+    windows_since_adapted_ = 0;
+  } else if (windows_since_adapted_ >= 20) {
+    if (least_margin_ > 3.0 * contact) window_ *= 1.05;
+    windows_since_adapted_ = 0;
   }
 }
 

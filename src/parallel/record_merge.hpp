@@ -71,9 +71,9 @@ namespace detail {
 /// Where records of the same disks at the same time are, in all lists. Many may come at one time, from a lattice, so that to look
 /// through all of these for each of them takes too long.
 template <class Record>
-class Twins {
+class MatchingRecords {
  public:
-  explicit Twins(std::span<const DomainRecords<Record>> lists) : lists_(lists) {}
+  explicit MatchingRecords(std::span<const DomainRecords<Record>> lists) : lists_(lists) {}
 
   /// Returns list and number in it of all that are like this one.
   [[nodiscard]] const std::vector<std::pair<std::size_t, std::size_t>>& of(const Record& record) {
@@ -101,7 +101,7 @@ class Twins {
 template <class Record, class IsEarlier, class IsLower, class Take>
 void merge_records(std::span<const DomainRecords<Record>> lists, IsEarlier&& is_earlier, IsLower&& is_lower, Take&& take) {
   std::vector<std::size_t> next(lists.size());
-  detail::Twins<Record> twins(lists);
+  detail::MatchingRecords<Record> matching(lists);
   /// Whether another list has to come to the same record first.
   const auto waits = [&](const Record& entry) {
     const auto follows_at_once = [&](std::size_t d) {
@@ -109,7 +109,7 @@ void merge_records(std::span<const DomainRecords<Record>> lists, IsEarlier&& is_
     };
     bool may_be = false;
     for (std::size_t d = 0; d < lists.size(); ++d) may_be = may_be || follows_at_once(d);
-    return may_be && std::ranges::any_of(twins.of(entry), [&](const auto& at) {
+    return may_be && std::ranges::any_of(matching.of(entry), [&](const auto& at) {
              const auto& [d, k] = at;
              return k > next[d] && detail::is_same(lists[d][k], entry) && !detail::is_same(lists[d][next[d]], entry);
            });

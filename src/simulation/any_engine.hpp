@@ -60,17 +60,17 @@ class AnyEngine {
   /// by their target.
   [[nodiscard]] virtual bool redraws_velocities() const { return false; }
   [[nodiscard]] virtual bool idle() const = 0;
-  [[nodiscard]] virtual bool jammed() const = 0;
-  /// The ids of the disks whose vanishing speeds are the reason for jammed(); empty where another reason is.
-  [[nodiscard]] virtual std::vector<std::int32_t> slow() const { return {}; }
-  /// jammed() because speeds have become too small to compute with.
+  [[nodiscard]] virtual bool is_stalled() const = 0;
+  /// Returns the ids of the disks whose vanishing speeds are the reason for is_stalled(); empty where another reason is.
+  [[nodiscard]] virtual std::vector<std::int32_t> stalled_disks() const { return {}; }
+  /// Returns whether the engine has stalled because speeds have become too small to compute with.
   [[nodiscard]] virtual bool cooled() const { return false; }
-  /// jammed() because velocities would not be finite: in half a sentence, empty where that is not so.
+  /// Returns which velocity would not be finite where the engine has stalled for that, as a clause; else an empty text.
   [[nodiscard]] virtual std::string fault() const { return {}; }
   /// An effect has brought the run to its end, such as disks that have grown to the packing fraction asked for: the reason, which
   /// run_until returns false for from then on; empty before.
   [[nodiscard]] virtual std::optional<StopReason> ended() const { return std::nullopt; }
-  /// The latest time at which disks that grow will have ended the run or be jammed().
+  /// Returns the latest time at which disks that grow will have ended the run or stalled the engine.
   [[nodiscard]] virtual Instant grown_at() const { return forever; }
   [[nodiscard]] virtual Instant now() const = 0;
   /// Rounds sums, which takes a microsecond; counts() does not.
@@ -153,12 +153,12 @@ class EngineAdapter final : public AnyEngine {
     return arrived;
   }
   [[nodiscard]] bool idle() const override { return engine_.idle(); }
-  [[nodiscard]] bool jammed() const override {
-    if constexpr (stalls) return engine_.stall().jammed();
+  [[nodiscard]] bool is_stalled() const override {
+    if constexpr (stalls) return engine_.stall().is_stalled();
     return !fault().empty();
   }
-  [[nodiscard]] std::vector<std::int32_t> slow() const override {
-    if constexpr (stalls) return engine_.stall().slow();
+  [[nodiscard]] std::vector<std::int32_t> stalled_disks() const override {
+    if constexpr (stalls) return engine_.stall().stalled_disks();
     return {};
   }
   [[nodiscard]] bool cooled() const override {

@@ -40,7 +40,7 @@ class DrivenEngine final : public WrappedEngine {
   }
   [[nodiscard]] bool idle() const override;
   /// Returns whether the engine has stalled, or a disk fills the box.
-  [[nodiscard]] bool jammed() const override { return filled_ || engine_->jammed(); }
+  [[nodiscard]] bool is_stalled() const override { return filled_ || engine_->is_stalled(); }
   [[nodiscard]] std::optional<StopReason> ended() const override {
     return grown_ ? std::optional(StopReason::grown) : std::nullopt;
   }

@@ -93,7 +93,7 @@ class Growing {
     constexpr auto no_limit = std::numeric_limits<std::uint64_t>::max();
     // A disk wedged between obstacles and walls, with no other disk to press on, would fly to and fro ever faster.
     const std::uint64_t stretch = wedged_after + wedged_after_per_disk * disks_.count();
-    for (std::uint64_t pairs = no_limit; pairs != engine->counts().pair && !engine->ended() && !engine->jammed();) {
+    for (std::uint64_t pairs = no_limit; pairs != engine->counts().pair && !engine->ended() && !engine->is_stalled();) {
       pairs = engine->counts().pair;
       engine->run_until(forever, no_limit, stretch);
     }

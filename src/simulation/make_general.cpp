@@ -1,4 +1,4 @@
-// From a scene to the fast engine with every effect, with the leanest layout that its disks allow.
+// From a scene to the fast engine with every effect, with the smallest layout that its disks allow.
 
 #include "simulation/make_with_effects.hpp"
 

@@ -24,7 +24,7 @@ namespace detail {
   if (!engine.fault().empty()) return StopReason::invalid_state;
   if (const auto reason = engine.ended()) return reason;
   if (engine.cooled()) return StopReason::cooled;
-  if (engine.jammed()) return effects.dissipate() ? StopReason::collapsed : StopReason::jammed;
+  if (engine.is_stalled()) return effects.dissipate() ? StopReason::collapsed : StopReason::jammed;
   return std::nullopt;
 }
 

@@ -152,13 +152,13 @@ class Schedule {
       const bool beyond = end < when;  // by the rounding of k * step, as 3 * 0.1 is beyond 0.3
       if (beyond && !advance_and_count(end, collisions)) return;
       const Instant before = engine().now();
-      const std::uint64_t happened = detail::happenings(engine().counts());
+      const std::uint64_t happened = detail::events_and_epochs(engine().counts());
       const bool arrived = advance_and_count(before_change(next_change(), when), collisions);
       const bool at_start = !(Instant{} < when);
       if (!arrived && !(at_start && collisions == 0)) return;  // the start is sampled even where nothing is to happen
       if (!take_samples(when) || !arrived) return;
       // The run ends at its end, whether it is sampled or not.
-      if (beyond && detail::happenings(engine().counts()) == happened) engine().set_back(before);
+      if (beyond && detail::events_and_epochs(engine().counts()) == happened) engine().set_back(before);
       if (is_hopeless()) {
         stop(StopReason::no_collisions);
         return;
@@ -388,7 +388,7 @@ class Schedule {
     result_.stopped = reason;
     if (reason == StopReason::invalid_state && result_.faults.empty()) result_.faults = {engine().fault()};
     if (reason == StopReason::jammed || reason == StopReason::collapsed) {
-      for (const std::int32_t disk : engine().slow()) standing_.push_back(disk);
+      for (const std::int32_t disk : engine().stalled_disks()) standing_.push_back(disk);
       sort_out(standing_);
       result_.stopped_disks = standing_;
     }

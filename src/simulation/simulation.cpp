@@ -159,7 +159,7 @@ StopReason Simulation::run_sampled(double until, const SamplingGrid& grid, const
     if (beyond)
       if (const StopReason reason = parts_->run_to(end, limits, watch); reason != StopReason::time) return reason;
     const Instant before = parts_->engine->now();
-    const std::uint64_t happened = detail::happenings(parts_->engine->counts());
+    const std::uint64_t happened = detail::events_and_epochs(parts_->engine->counts());
     if (const StopReason reason = parts_->run_to(parts_->before_change(when), limits, watch); reason != StopReason::time)
       return reason;
     if (grid.sample) {
@@ -167,7 +167,7 @@ StopReason Simulation::run_sampled(double until, const SamplingGrid& grid, const
       state.time = when.high;
       grid.sample(k, state, parts_->engine->totals());
     }
-    if (beyond && detail::happenings(parts_->engine->counts()) == happened) parts_->engine->set_back(before);
+    if (beyond && detail::events_and_epochs(parts_->engine->counts()) == happened) parts_->engine->set_back(before);
     if (watch.stopped()) return StopReason::interrupted;
   }
   return parts_->run_to(end, limits, watch);

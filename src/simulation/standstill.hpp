@@ -57,21 +57,21 @@ class Standstill {
     has_all_its_energy_ = !own_rule_ && detail::conserve_energy(lossless);
     const Counts& counts = engine.counts();
     by_collisions_.begin({engine.now(), counts.pair, counts.pair});
-    by_all_.begin({engine.now(), happenings(counts), counts.pair});
+    by_all_.begin({engine.now(), events_and_epochs(counts), counts.pair});
   }
 
   /// The number of collisions of pairs at which reached() looks next.
   [[nodiscard]] std::uint64_t collisions_at_look() const { return by_collisions_.next(); }
   /// How many events may happen before reached() is to be called again.
   [[nodiscard]] std::uint64_t events_until_look(const Counts& counts) const {
-    const std::uint64_t happened = happenings(counts), next = by_all_.next();
+    const std::uint64_t happened = events_and_epochs(counts), next = by_all_.next();
     return next > happened ? (next - happened + 1) / 2 : 1;  // each of them may begin an epoch, which is counted too
   }
 
   /// Why the run will not come to its end, or nothing, which it is wherever nothing is due.
   [[nodiscard]] std::optional<StopReason> reached(const AnyEngine& engine, const RunEnd& end) {
     const auto reason = look(by_collisions_, engine, engine.counts().pair, end);
-    return reason ? reason : look(by_all_, engine, happenings(engine.counts()), end);
+    return reason ? reason : look(by_all_, engine, events_and_epochs(engine.counts()), end);
   }
 
   template <class Archive>

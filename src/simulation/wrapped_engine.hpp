@@ -22,8 +22,8 @@ class WrappedEngine : public AnyEngine {
   void serve(const Threads& threads, Ranks& ranks) override { engine_->serve(threads, ranks); }
   [[nodiscard]] ThreadCounts thread_counts() const override { return engine_->thread_counts(); }
   [[nodiscard]] bool idle() const override { return engine_->idle(); }
-  [[nodiscard]] bool jammed() const override { return engine_->jammed(); }
-  [[nodiscard]] std::vector<std::int32_t> slow() const override { return engine_->slow(); }
+  [[nodiscard]] bool is_stalled() const override { return engine_->is_stalled(); }
+  [[nodiscard]] std::vector<std::int32_t> stalled_disks() const override { return engine_->stalled_disks(); }
   [[nodiscard]] bool cooled() const override { return engine_->cooled(); }
   [[nodiscard]] std::string fault() const override { return engine_->fault(); }
   [[nodiscard]] Instant now() const override { return engine_->now(); }

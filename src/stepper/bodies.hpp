@@ -2,8 +2,8 @@
 // The disks of a fixed-step method: positions and velocities at the present step, how disks fly, what stands round them, what
 // collisions keep of their speed, and how stiff the springs are of a method that has some.
 
-#include "core/domain.hpp"
 #include "core/sides.hpp"
+#include "core/simulation_box.hpp"
 #include "effects/gravity.hpp"
 #include "effects/impact.hpp"
 #include "stepper/step_shapes.hpp"
@@ -128,7 +128,7 @@ struct Bodies {
     archive(r, v, images);
   }
 
-  Domain<double> domain;
+  SimulationBox<double> domain;
   bool walled[2];                            ///< across which axes there are walls
   std::shared_ptr<const StepShapes> shapes;  ///< null where there are none
   Vec2<double> around;                       ///< how far it is round the box; infinite between walls

@@ -25,8 +25,8 @@
 #include "effects/impact.hpp"
 #include "stepper/bodies.hpp"
 #include "stepper/grid.hpp"
+#include "stepper/reflect_at_wall.hpp"
 #include "stepper/tally.hpp"
-#include "stepper/turn_at_wall.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -260,7 +260,7 @@ class ContactStep {
     const int wall = -1 - m.j, axis = wall / 2;
     bodies.accelerate(m.i, m.time);
     const Vec2<double> before = bodies.v[m.i];
-    turn_at_wall(bodies, m.i, axis, wall % 2 == 1, tally);
+    reflect_at_wall(bodies, m.i, axis, wall % 2 == 1, tally);
     bodies.move(m.i, before - bodies.v[m.i], m.time);
     bodies.accelerate(m.i, -m.time);
     turned(m.time, m.i);

@@ -13,8 +13,8 @@
 
 #include "effects/impact.hpp"
 #include "stepper/bodies.hpp"
+#include "stepper/reflect_at_wall.hpp"
 #include "stepper/tally.hpp"
-#include "stepper/turn_at_wall.hpp"
 
 #include <cstddef>
 
@@ -85,11 +85,11 @@ class GuardedStep {
       const bool below = across < 0 && bodies.r[i][axis] < bodies.domain.lower[axis] + bodies.radius[i];
       const bool above = across > 0 && bodies.r[i][axis] > bodies.domain.upper[axis] - bodies.radius[i];
       if (!below && !above) continue;
-      turn_at_wall(bodies, i, axis, above, tally);
+      reflect_at_wall(bodies, i, axis, above, tally);
     }
     if (bodies.shapes == nullptr) return;
     bodies.shapes->for_overlaps(bodies.r[i], bodies.radius[i], bodies.radius[i], [&](const StepShapes::Overlap& overlap) {
-      if (overlap.normal.dot(bodies.v[i]) < 0) turn_at_shape(bodies, i, overlap, tally);
+      if (overlap.normal.dot(bodies.v[i]) < 0) reflect_at_shape(bodies, i, overlap, tally);
     });
   }
 

@@ -15,8 +15,8 @@
 // reversed in every step in which the disk overlaps them.
 
 #include "stepper/bodies.hpp"
+#include "stepper/reflect_at_wall.hpp"
 #include "stepper/tally.hpp"
-#include "stepper/turn_at_wall.hpp"
 
 #include <cstddef>
 #include <vector>
@@ -74,11 +74,11 @@ class NaiveStep {
       if (!bodies.walled[axis]) continue;
       const bool below = bodies.r[i][axis] < bodies.domain.lower[axis] + room;
       const bool above = bodies.r[i][axis] > bodies.domain.upper[axis] - room;
-      if (below || above) turn_at_wall(bodies, i, axis, above, tally);
+      if (below || above) reflect_at_wall(bodies, i, axis, above, tally);
     }
     if (bodies.shapes != nullptr)
       bodies.shapes->for_overlaps(bodies.r[i], bodies.radius[i], room,
-                                  [&](const StepShapes::Overlap& overlap) { turn_at_shape(bodies, i, overlap, tally); });
+                                  [&](const StepShapes::Overlap& overlap) { reflect_at_shape(bodies, i, overlap, tally); });
   }
 
   /// The rule, whether or not the two approach: w = v - 2 (mu / m) d for one and + for the other, where d is the part of the
@@ -87,14 +87,14 @@ class NaiveStep {
   static void collide(Bodies& bodies, std::size_t i, std::size_t j, const Vec2<double>& r, Tally& tally) {
     const Vec2<double> v = bodies.v[i] - bodies.v[j];
     const double b = r.dot(v);
-    const double turn = bodies.impact.turn;
-    const Vec2<double> d = turn * Rule::turned(r, v, b);
+    const double fraction = bodies.impact.reflected_fraction;
+    const Vec2<double> d = fraction * Rule::reversed_part(r, v, b);
     if (!d.allFinite()) return;  // centre upon centre: no direction to turn
     const double total = bodies.mass[i] + bodies.mass[j];
     bodies.v[i] -= (2 * bodies.mass[j] / total) * d;
     bodies.v[j] += (2 * bodies.mass[i] / total) * d;
-    const double lost = turn == 1.0 ? 0.0 : detail::twice_reduced<double>(d.dot(v - d), bodies.mass[i], bodies.mass[j]);
-    tally.pair(i, j, -b * turn * 2 * bodies.mass[i] * bodies.mass[j] / total, lost, bodies.v[i], bodies.v[j]);
+    const double lost = fraction == 1.0 ? 0.0 : detail::twice_reduced<double>(d.dot(v - d), bodies.mass[i], bodies.mass[j]);
+    tally.pair(i, j, -b * fraction * 2 * bodies.mass[i] * bodies.mass[j] / total, lost, bodies.v[i], bodies.v[j]);
   }
 
   double dt_;

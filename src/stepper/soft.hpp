@@ -60,7 +60,7 @@ class SoftStep {
   /// Requires restitutions above 0.
   SoftStep(const Bodies& bodies, double dt)
       : dt_(dt), stiffness_(bodies.stiffness.value_or(stiffness(bodies.mass, dt))), pairs_(bodies, dt) {
-    damping_ = relative_damping(2.0 * bodies.impact.turn - 1.0);
+    damping_ = relative_damping(2.0 * bodies.impact.reflected_fraction - 1.0);
     for (std::size_t wall = 0; wall < 4; ++wall) wall_damping_[wall] = relative_damping(bodies.wall_restitution[wall]);
   }
 

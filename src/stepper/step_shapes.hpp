@@ -30,7 +30,7 @@ class StepShapes {
       : obstacles_(box, fixed_shapes(effects)),
         length_(box.lengths()),
         bins_(box, bounds_of(effects.obstacles)),
-        shapes_(Domain<double>(box), bins_, effects.obstacles),
+        shapes_(SimulationBox<double>(box), bins_, effects.obstacles),
         circle_(effects.circle),
         rim_(effects.circle ? static_cast<std::int32_t>(effects.obstacles.size()) : -1) {}
 

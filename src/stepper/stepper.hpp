@@ -50,7 +50,7 @@ class Stepper {
 
   /// The time of the next step is always to come.
   [[nodiscard]] static bool idle() { return false; }
-  [[nodiscard]] bool jammed() const { return !fault_.empty(); }
+  [[nodiscard]] bool is_stalled() const { return !fault_.empty(); }
   /// Returns which number is not finite, so that stepping has no meaning any more; empty where all are finite.
   [[nodiscard]] const std::string& fault() const { return fault_; }
 

@@ -29,7 +29,7 @@ class Tally {
                    in_order ? v_i : v_j, in_order ? v_j : v_i});
   }
 
-  /// A velocity was turned round at a wall; `impulse` and `energy` are what the wall took, the impulse outward positive.
+  /// A velocity was reversed at a wall; `impulse` and `energy` are what the wall took, the impulse outward positive.
   void wall(std::size_t i, Wall which, double impulse, double energy, const Vec2<double>& v) {
     ++totals.wall;
     totals.wall_impulse[index_of(which)].add(impulse);
@@ -37,7 +37,7 @@ class Tally {
     if (recording) log.push_back({time.high, time.low, static_cast<std::int32_t>(i), which, v, Eigen::Vector2d::Zero()});
   }
 
-  /// A velocity was turned round at fixed shape `which`, which took `impulse`, and `outward` of it where it is the rim of a
+  /// A velocity was reversed at fixed shape `which`, which took `impulse`, and `outward` of it where it is the rim of a
   /// circular box.
   void shape(std::size_t i, std::int32_t which, const Vec2<double>& impulse, double outward, const Vec2<double>& v) {
     ++totals.obstacle;

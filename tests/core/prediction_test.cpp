@@ -29,9 +29,9 @@ constexpr double never = std::numeric_limits<double>::infinity();
 
 /// The kernel of one instruction set, or the best where this machine lacks it.
 template <class Line>
-const PredictionKernel<Line>& kernel(std::string_view set, Contact contact = Contact::hard) {
+const PredictionKernel<Line>& kernel(std::string_view set, PredictionKind kind = PredictionKind::hard) {
   const WithInstructions asked(set);
-  return prediction_kernel<Line>(contact);
+  return prediction_kernel<Line>(kind);
 }
 
 double radius_of(const Flight& /*line*/) { return 0.0; }
@@ -185,7 +185,7 @@ Drawn draw(std::mt19937_64& random, std::size_t count) {
 
 template <class Line>
 void expect_predictions_of_twin(const Drawn& drawn, const std::vector<Line>& lines, std::mt19937_64& random, std::string_view set,
-                                Contact contact = Contact::hard) {
+                                PredictionKind kind = PredictionKind::hard) {
   const auto count = static_cast<std::int32_t>(lines.size());
   std::vector<std::int32_t> others;
   for (std::int32_t j = 1; j < count; ++j) others.push_back(j);
@@ -193,15 +193,15 @@ void expect_predictions_of_twin(const Drawn& drawn, const std::vector<Line>& lin
   List list(0, others);
   for (int a = 0; a < 2; ++a) {
     // The neighbourhood lies round where the disk is, or a little off, or somewhere.
-    const double kind = static_cast<double>(random() % 4);
+    const double offset = static_cast<double>(random() % 4);
     const double at = std::fmod(lines[0].v[a] * drawn.now / drawn.frame.unit[a], 0x1p63);
     const std::uint64_t place =
         static_cast<std::uint64_t>(lines[0].x[a]) + static_cast<std::uint64_t>(whole(at)) +
-        static_cast<std::uint64_t>(whole(0.4 * kind * drawn.frame.half_width / drawn.frame.unit[a] / 2.0));
-    list.centre[a] = kind == 3.0 ? static_cast<std::int32_t>(random()) : static_cast<std::int32_t>(place >> 32);
+        static_cast<std::uint64_t>(whole(0.4 * offset * drawn.frame.half_width / drawn.frame.unit[a] / 2.0));
+    list.centre[a] = offset == 3.0 ? static_cast<std::int32_t>(random()) : static_cast<std::int32_t>(place >> 32);
   }
   Prediction found;
-  kernel<Line>(set, contact).predict(lines.data(), drawn.frame, 0, list.around(), drawn.now, found);
+  kernel<Line>(set, kind).predict(lines.data(), drawn.frame, 0, list.around(), drawn.now, found);
   expect_as_twin(lines, drawn.frame, 0, list, drawn.now, found);
 
   if (count < 2) return;
@@ -219,9 +219,9 @@ void expect_predictions_of_twin(const Drawn& drawn, const std::vector<Line>& lin
     const double steps = (line.v[a] - v) * drawn.now * drawn.frame.steps[a];
     line.v[a] = std::abs(steps) < 0x1p62 ? v : line.v[a];  // fast disks have coarse velocities
     const auto nearest = [&](double speed) { return whole(std::nearbyint(speed * drawn.now * drawn.frame.steps[a])); };
-    const std::int64_t by = std::abs(steps) >= 0x1p62     ? 0
-                            : contact == Contact::falling ? nearest(before) - nearest(line.v[a])
-                                                          : whole(steps);
+    const std::int64_t by = std::abs(steps) >= 0x1p62         ? 0
+                            : kind == PredictionKind::falling ? nearest(before) - nearest(line.v[a])
+                                                              : whole(steps);
     const long double exact = static_cast<long double>(line.x[a]) + static_cast<long double>(by);  // has 64 digits
     line.x[a] = static_cast<std::int64_t>(static_cast<std::uint64_t>(line.x[a]) + static_cast<std::uint64_t>(by));
     wrapped |= static_cast<unsigned>(exact < -0x1p63L || exact >= 0x1p63L) << k;
@@ -236,7 +236,7 @@ void expect_predictions_of_twin(const Drawn& drawn, const std::vector<Line>& lin
   std::vector<Line> stored = lines;
   CollidedPair pair{{0, 1}, {list.around(), second.around()}, {}, 0, 0};
   const Line &a = after[0], &b = after[1];
-  kernel<Line>(set, contact).turn_and_predict(stored.data(), drawn.frame, pair, drawn.now, a.v[0], a.v[1], b.v[0], b.v[1]);
+  kernel<Line>(set, kind).turn_and_predict(stored.data(), drawn.frame, pair, drawn.now, a.v[0], a.v[1], b.v[0], b.v[1]);
   ASSERT_EQ(pair.wrapped, wrapped);
   ASSERT_EQ(pair.downwards, downwards);
   for (std::size_t k = 0; k < 2; ++k)
@@ -263,15 +263,15 @@ TEST_P(PredictionKernels, GiveTheBitsOfOneNeighbourAtATimeInMixtures) {
     Drawn drawn = draw(random, k % 3 == 0 ? 1 + random() % 40 : 1 + random() % 12);
     drawn.frame.contact_scales = scales.data();
     drawn.frame.kinds = 3;
-    const Contact contact = k % 2 == 0 ? Contact::hard : Contact::falling;
+    const PredictionKind kind = k % 2 == 0 ? PredictionKind::hard : PredictionKind::falling;
     for (SizedFlight& line : drawn.sized)
       for (int a = 0; a < 2; ++a)  // no line of a falling disk may be longer than a quarter of the range
-        if (contact == Contact::falling && std::abs(line.v[a] * drawn.now / drawn.frame.unit[a]) > 0x1p61) line.v[a] = 0.0;
+        if (kind == PredictionKind::falling && std::abs(line.v[a] * drawn.now / drawn.frame.unit[a]) > 0x1p61) line.v[a] = 0.0;
     std::vector<MixedFlight> mixed;
     for (const SizedFlight& line : drawn.sized)
       mixed.push_back(
           {{line.x[0], line.x[1]}, {line.v[0], line.v[1]}, line.radius, 1.0, static_cast<std::int32_t>(random() % 3)});
-    ASSERT_NO_FATAL_FAILURE(expect_predictions_of_twin(drawn, mixed, random, GetParam(), contact)) << "case " << k;
+    ASSERT_NO_FATAL_FAILURE(expect_predictions_of_twin(drawn, mixed, random, GetParam(), kind)) << "case " << k;
   }
 }
 
@@ -295,15 +295,17 @@ TEST_P(PredictionKernels, DrawNewLinesOfDisksThatFallFromTheNearestStep) {
         if (std::abs(v * drawn.now / drawn.frame.unit[a]) > 0x1p61) v = 0.0;
         drawn.plain[n].v[a] = v;
       }
-    ASSERT_NO_FATAL_FAILURE(expect_predictions_of_twin(drawn, drawn.plain, random, GetParam(), Contact::falling)) << "case " << k;
-    ASSERT_NO_FATAL_FAILURE(expect_predictions_of_twin(drawn, drawn.sized, random, GetParam(), Contact::falling)) << "case " << k;
+    ASSERT_NO_FATAL_FAILURE(expect_predictions_of_twin(drawn, drawn.plain, random, GetParam(), PredictionKind::falling))
+        << "case " << k;
+    ASSERT_NO_FATAL_FAILURE(expect_predictions_of_twin(drawn, drawn.sized, random, GetParam(), PredictionKind::falling))
+        << "case " << k;
   }
 }
 
 TEST_P(PredictionKernels, DrawTheSameLinesInSteps) {
   std::mt19937_64 random(6);
-  for (const auto& [in_steps, as] :
-       {std::pair(Contact::falling_steps, Contact::falling), std::pair(Contact::steps, Contact::hard)}) {
+  for (const auto& [in_steps, as] : {std::pair(PredictionKind::falling_steps, PredictionKind::falling),
+                                     std::pair(PredictionKind::steps, PredictionKind::hard)}) {
     for (int k = 0; k < 1'000; ++k) {
       Drawn drawn = draw(random, 2);
       const std::vector<std::vector<PairStep>> none(2);
@@ -312,13 +314,13 @@ TEST_P(PredictionKernels, DrawTheSameLinesInSteps) {
       drawn.frame.edges = edges;
       drawn.frame.outside = 1;
       const List first(0, {1}), second(1, {0});
-      const auto turned = [&](Contact contact) {
+      const auto turned = [&](PredictionKind kind) {
         std::vector<SizedFlight> lines = drawn.sized;
         for (SizedFlight& line : lines)
           for (int a = 0; a < 2; ++a)
             if (std::abs(line.v[a] * drawn.now / drawn.frame.unit[a]) > 0x1p61) line.v[a] = 0.0;
         CollidedPair pair{{0, 1}, {first.around(), second.around()}, {}, 0, 0};
-        kernel<SizedFlight>(GetParam(), contact)
+        kernel<SizedFlight>(GetParam(), kind)
             .turn_and_predict(lines.data(), drawn.frame, pair, drawn.now, 0.9 * lines[0].v[0], 0.7 * lines[0].v[1], 0.0, 0.0);
         return lines;
       };
@@ -337,8 +339,10 @@ TEST_P(PredictionKernels, GiveTheSameBitsByAnEdgeThatSlidesForThoseOnOneSideOfIt
     // Either everybody is by an edge, or those whose neighbourhoods are in the outer half.
     const std::int64_t inner = k % 2 == 0 ? 0 : 1 << 30;
     drawn.frame.sliding = {heights.data(), static_cast<std::int64_t>(random()), 3.0, inner};
-    ASSERT_NO_FATAL_FAILURE(expect_predictions_of_twin(drawn, drawn.plain, random, GetParam(), Contact::sheared)) << "case " << k;
-    ASSERT_NO_FATAL_FAILURE(expect_predictions_of_twin(drawn, drawn.sized, random, GetParam(), Contact::sheared)) << "case " << k;
+    ASSERT_NO_FATAL_FAILURE(expect_predictions_of_twin(drawn, drawn.plain, random, GetParam(), PredictionKind::sheared))
+        << "case " << k;
+    ASSERT_NO_FATAL_FAILURE(expect_predictions_of_twin(drawn, drawn.sized, random, GetParam(), PredictionKind::sheared))
+        << "case " << k;
   }
 }
 
@@ -368,9 +372,11 @@ TEST_P(PredictionKernels, MeetTheImagesBeyondAnEdgeThatSlides) {
     list.centre[1] = across[0];
     const double now = static_cast<double>(random() % 8) / 8.0;
     Prediction found, expected;
-    kernel<Flight>(GetParam(), Contact::sheared).predict(std::vector{mine, other}.data(), frame, 0, list.around(), now, found);
+    kernel<Flight>(GetParam(), PredictionKind::sheared)
+        .predict(std::vector{mine, other}.data(), frame, 0, list.around(), now, found);
     frame.sliding.heights = beside.data();
-    kernel<Flight>(GetParam(), Contact::sheared).predict(std::vector{mine, image}.data(), frame, 0, list.around(), now, expected);
+    kernel<Flight>(GetParam(), PredictionKind::sheared)
+        .predict(std::vector{mine, image}.data(), frame, 0, list.around(), now, expected);
     ASSERT_EQ(found.pair_time, expected.pair_time);
     met += expected.pair_time < never ? 1 : 0;
   }

@@ -13,7 +13,7 @@ TEST(FlightLimits, ALineIsTooLongBeyondItsSpeedUntilTheEpochEnds) {
   FlightLimits limits;
   limits.longest_line[0] = 8.0;
   limits.longest_line[1] = 2.0;
-  limits.suit_epoch(4.0);
+  limits.set_epoch_length(4.0);
   EXPECT_FALSE(limits.exceeded_by({2.0, -0.5}));
   EXPECT_TRUE(limits.exceeded_by({-2.1, 0.0}));
   EXPECT_TRUE(limits.exceeded_by({0.0, 0.6}));
@@ -24,7 +24,7 @@ TEST(FlightLimits, ALineIsTooLongBeyondItsSpeedUntilTheEpochEnds) {
 TEST(FlightLimits, AnEpochWithoutEndIsOneInWhichNothingMoves) {
   FlightLimits limits;
   limits.longest_line[0] = limits.longest_line[1] = 8.0;
-  limits.suit_epoch(std::numeric_limits<double>::infinity());
+  limits.set_epoch_length(std::numeric_limits<double>::infinity());
   EXPECT_FALSE(limits.exceeded_by({0.0, 0.0}));
   EXPECT_TRUE(limits.exceeded_by({1e-300, 0.0}));
 }

@@ -22,23 +22,23 @@ TEST(StallDetector, TimeStandsStillAfterSoManyEventsAtOneInstant) {
   StallDetector stall(inelastic(), 3);
   constexpr int patience = 100'000 + 100 * 3;
   for (int n = 0; n < patience; ++n) stall.count_event(false);
-  EXPECT_FALSE(stall.jammed());
+  EXPECT_FALSE(stall.is_stalled());
   stall.count_event(true);
   for (int n = 0; n < patience; ++n) stall.count_event(false);
-  EXPECT_FALSE(stall.jammed());
+  EXPECT_FALSE(stall.is_stalled());
   stall.count_event(false);
-  EXPECT_TRUE(stall.jammed());
+  EXPECT_TRUE(stall.is_stalled());
   EXPECT_FALSE(stall.cooled());
   EXPECT_EQ(stall.fault(), "");
-  EXPECT_TRUE(stall.slow().empty());
+  EXPECT_TRUE(stall.stalled_disks().empty());
 }
 
 TEST(StallDetector, ElasticDisksMayHaveAHundredTimesAsManyEventsAtOneInstant) {
   StallDetector stall(Effects{}, 0);
   for (int n = 0; n < 10'000'000; ++n) stall.count_event(false);
-  EXPECT_FALSE(stall.jammed());
+  EXPECT_FALSE(stall.is_stalled());
   stall.count_event(false);
-  EXPECT_TRUE(stall.jammed());
+  EXPECT_TRUE(stall.is_stalled());
 }
 
 TEST(StallDetector, AVanishingSpeedAtTheEndOfASeriesIsACollapseOfThoseDisks) {
@@ -51,11 +51,11 @@ TEST(StallDetector, AVanishingSpeedAtTheEndOfASeriesIsACollapseOfThoseDisks) {
   for (int n = 0; n < 64; ++n) stall.count_event(false);
   stall.record_loss(square_vanishes, {1, 4});
   stall.record_loss(1.0, {9});
-  EXPECT_FALSE(stall.jammed());
-  EXPECT_TRUE(stall.slow().empty());
+  EXPECT_FALSE(stall.is_stalled());
+  EXPECT_TRUE(stall.stalled_disks().empty());
   stall.record_loss(vanishes, {4, 5});
-  EXPECT_TRUE(stall.jammed());
-  EXPECT_EQ(stall.slow(), (std::vector<std::int32_t>{8, 1, 4, 5}));
+  EXPECT_TRUE(stall.is_stalled());
+  EXPECT_EQ(stall.stalled_disks(), (std::vector<std::int32_t>{8, 1, 4, 5}));
 }
 
 TEST(StallDetector, AVanishingSpeedOutsideOfASeriesIsNoCollapse) {
@@ -64,7 +64,7 @@ TEST(StallDetector, AVanishingSpeedOutsideOfASeriesIsNoCollapse) {
     stall.count_event(n % 64 == 0);
     stall.record_loss(vanishes, {0, 1});
   }
-  EXPECT_FALSE(stall.jammed());
+  EXPECT_FALSE(stall.is_stalled());
 }
 
 TEST(StallDetector, OnlyDisksThatDissipateAndDoNotFallCool) {
@@ -73,21 +73,21 @@ TEST(StallDetector, OnlyDisksThatDissipateAndDoNotFallCool) {
   for (const Effects& effects : {Effects{}, falling}) {
     StallDetector stall(effects, 2);
     stall.check_speeds(true);
-    EXPECT_FALSE(stall.jammed());
+    EXPECT_FALSE(stall.is_stalled());
     EXPECT_FALSE(stall.cooled());
   }
   StallDetector stall(inelastic(), 2);
   stall.check_speeds(false);
-  EXPECT_FALSE(stall.jammed());
+  EXPECT_FALSE(stall.is_stalled());
   stall.check_speeds(true);
-  EXPECT_TRUE(stall.jammed());
+  EXPECT_TRUE(stall.is_stalled());
   EXPECT_TRUE(stall.cooled());
 }
 
 TEST(StallDetector, AFaultStallsAtOnceAndSaysWhat) {
   StallDetector stall(Effects{}, 2);
   stall.fail("disk 1: its velocity would not be finite");
-  EXPECT_TRUE(stall.jammed());
+  EXPECT_TRUE(stall.is_stalled());
   EXPECT_FALSE(stall.cooled());
   EXPECT_EQ(stall.fault(), "disk 1: its velocity would not be finite");
 }

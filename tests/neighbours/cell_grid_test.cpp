@@ -110,7 +110,7 @@ TEST(CellGrid, RestingDisksNeverCross) {
 
 TEST(CellGrid, ADiskCrossesEveryCellOnceOnItsWayRound) {
   // 64 disks in an 8 x 8 box of reach 0.5: cells of side 1, and a disk of speed 1 crosses at 0.5, 1.5, 2.5, ...
-  const Domain<double> domain(Box{{0.0, 0.0}, {8.0, 8.0}, {Boundary::periodic, Boundary::periodic}});
+  const SimulationBox<double> domain(Box{{0.0, 0.0}, {8.0, 8.0}, {Boundary::periodic, Boundary::periodic}});
   CellGrid<double> grid(domain, 0.5, 64);
   grid.clear();
   grid.insert(0, {0.5, 0.5});
@@ -124,13 +124,13 @@ TEST(CellGrid, ADiskCrossesEveryCellOnceOnItsWayRound) {
 }
 
 TEST(CellGrid, NumberOfCellsStaysInProportionToDisksInAThinBox) {
-  const Domain<double> domain(Box{{0.0, 0.0}, {1e9, 1e-3}, {Boundary::walls, Boundary::walls}});
+  const SimulationBox<double> domain(Box{{0.0, 0.0}, {1e9, 1e-3}, {Boundary::walls, Boundary::walls}});
   const CellGrid<double> grid(domain, 1e-3, 10);
   EXPECT_GE(grid.width()[0], 1e9 / 41.0 * (1.0 - 1e-12));
 }
 
 TEST(CellGrid, NoDisksAreNoTrouble) {
-  const Domain<double> domain(Box{{0.0, 0.0}, {1.0, 1.0}, {Boundary::walls, Boundary::periodic}});
+  const SimulationBox<double> domain(Box{{0.0, 0.0}, {1.0, 1.0}, {Boundary::walls, Boundary::periodic}});
   CellGrid<double> grid(domain, 1.0, 0);
   grid.clear();
   EXPECT_EQ(grid.width()[0], 1.0);

@@ -40,30 +40,30 @@ void expect_same_runs_on(int ranks, const Scene& scene, const Threads& threads, 
 TEST(Ranks, GiveTheBitsOfOneForAnyNumberOfThem) {
   for (const int ranks : {1, 2, 3, 4})
     for (const std::size_t threads : {1U, 2U, 3U})
-      expect_same_runs_on(ranks, lean_gas(3000, 0.5, Boundary::periodic), {.threads = threads}, 4.0, 2);
+      expect_same_runs_on(ranks, plain_gas(3000, 0.5, Boundary::periodic), {.threads = threads}, 4.0, 2);
 }
 
 TEST(Ranks, GiveTheBitsOfOneForScenesOfAllKinds) {
-  expect_same_runs_on(3, lean_gas(4000, 0.72, Boundary::walls), {.domains = 5}, 2.0, 2, "dense");
-  expect_same_runs_on(3, lean_gas(4000, 0.4, Boundary::periodic, CollisionRule::reversal), {}, 5.0, 2, "reversal");
+  expect_same_runs_on(3, plain_gas(4000, 0.72, Boundary::walls), {.domains = 5}, 2.0, 2, "dense");
+  expect_same_runs_on(3, plain_gas(4000, 0.4, Boundary::periodic, CollisionRule::reversal), {}, 5.0, 2, "reversal");
   expect_same_runs_on(4, mixture(3000), {}, 8.0, 3, "mixture");
-  Scene falling = lean_gas(3000, 0.4, Boundary::walls);
+  Scene falling = plain_gas(3000, 0.4, Boundary::walls);
   falling.effects.gravity = Gravity{{0.0, -0.2}};
   falling.box.boundary[0] = Boundary::periodic;
   expect_same_runs_on(3, falling, {.threads = 2}, 20.0, 3, "falling");
-  Scene cooling = lean_gas(3000, 0.4, Boundary::periodic);
+  Scene cooling = plain_gas(3000, 0.4, Boundary::periodic);
   cooling.effects.collision.restitution = 0.9;
   expect_same_runs_on(3, cooling, {}, 20.0, 3, "cooling");
   Scene rough = cooling;
   rough.effects.collision.roughness = 0.3;
   expect_same_runs_on(2, rough, {}, 10.0, 2, "rough");
-  Scene growing = lean_gas(3000, 0.3, Boundary::periodic);
+  Scene growing = plain_gas(3000, 0.3, Boundary::periodic);
   growing.effects.growth = Growth{.rate = 0.05};
   expect_same_runs_on(3, growing, {.threads = 2}, 6.0, 3, "growing");
-  Scene wells = lean_gas(3000, 0.3, Boundary::periodic);
+  Scene wells = plain_gas(3000, 0.3, Boundary::periodic);
   wells.effects.square_well = SquareWell{.width = 1.6, .depth = 0.8};
   expect_same_runs_on(3, wells, {}, 8.0, 3, "wells");
-  Scene stepped = lean_gas(3000, 0.3, Boundary::periodic);
+  Scene stepped = plain_gas(3000, 0.3, Boundary::periodic);
   stepped.effects.stepped_potential = SteppedPotential{{{1.2, 0.4}, {1.7, -0.6}}};
   expect_same_runs_on(3, stepped, {}, 6.0, 3, "stepped");
   Scene tumbling = mixture(3000);
@@ -73,7 +73,7 @@ TEST(Ranks, GiveTheBitsOfOneForScenesOfAllKinds) {
   thermal.effects.growth = Growth{.rate = 0.01};
   thermal.effects.thermostat = Thermostat{2.0, 1.0};
   expect_same_runs_on(3, thermal, {}, 6.0, 3, "thermal");
-  Scene brownian = lean_gas(3000, 0.3, Boundary::walls);
+  Scene brownian = plain_gas(3000, 0.3, Boundary::walls);
   brownian.effects.brownian = Brownian{1.0, 2.0};
   expect_same_runs_on(4, brownian, {}, 6.0, 3, "Brownian");
   Scene shaken = cooling;
@@ -89,7 +89,7 @@ TEST(Ranks, GiveTheBitsOfOneForScenesOfAllKinds) {
 
 /// Where domains are so small that one has more neighbours than it can tell apart, there are fewer of them.
 TEST(Ranks, HaveFewerDomainsThanThreadsWhereThoseWouldBeTooSmall) {
-  const Scene scene = lean_gas(1000, 0.5, Boundary::periodic);
+  const Scene scene = plain_gas(1000, 0.5, Boundary::periodic);
   ServingRanks serving(3);
   Simulation alone = make_simulation(scene), shared = make_simulation(scene);
   shared.set_threads({.threads = 32}, serving.first());
@@ -106,7 +106,7 @@ TEST(Ranks, HaveFewerDomainsThanThreadsWhereThoseWouldBeTooSmall) {
 TEST(Ranks, FindEveryWindowThatTheirHalosAreTooNarrowFor) {
   std::uint64_t redone = 0;
   for (const double halo : {2.5, 4.0}) {
-    const Scene scene = lean_gas(5000, 0.5, Boundary::periodic);
+    const Scene scene = plain_gas(5000, 0.5, Boundary::periodic);
     ServingRanks serving(3);
     Simulation alone = make_simulation(scene), shared = make_simulation(scene);
     shared.set_threads({.domains = 4, .halo = halo, .events_per_window = 3.0}, serving.first());
@@ -121,7 +121,7 @@ TEST(Ranks, FindEveryWindowThatTheirHalosAreTooNarrowFor) {
 }
 
 TEST(Ranks, StopAtExactNumbers) {
-  const Scene scene = lean_gas(4000, 0.6, Boundary::periodic);
+  const Scene scene = plain_gas(4000, 0.6, Boundary::periodic);
   ServingRanks serving(3);
   Simulation alone = make_simulation(scene), shared = make_simulation(scene);
   shared.set_threads({.threads = 2}, serving.first());
@@ -137,7 +137,7 @@ TEST(Ranks, StopAtExactNumbers) {
 }
 
 TEST(Ranks, GoOnFromWhatOtherNumbersOfThemHaveSaved) {
-  const Scene scene = lean_gas(4000, 0.5, Boundary::periodic);
+  const Scene scene = plain_gas(4000, 0.5, Boundary::periodic);
   Simulation alone = make_simulation(scene);
   alone.run_until(6.0);
   std::stringstream saved;
@@ -161,7 +161,7 @@ TEST(Ranks, GoOnFromWhatOtherNumbersOfThemHaveSaved) {
 }
 
 TEST(Ranks, GoOnAfterSingleStepsAndChanges) {
-  const Scene scene = lean_gas(4000, 0.5, Boundary::periodic);
+  const Scene scene = plain_gas(4000, 0.5, Boundary::periodic);
   ServingRanks serving(2);
   Simulation alone = make_simulation(scene), shared = make_simulation(scene);
   shared.set_threads({}, serving.first());
@@ -187,7 +187,7 @@ TEST(Ranks, GoOnAfterSingleStepsAndChanges) {
 }
 
 TEST(Ranks, TellTheCollisionsOfOneInTheirOrder) {
-  Scene scene = lean_gas(3000, 0.5, Boundary::walls);
+  Scene scene = plain_gas(3000, 0.5, Boundary::walls);
   scene.run.time = 3.0;
   scene.run.sample_every = 0.5;
   std::vector<double> numbers[2];
@@ -222,7 +222,7 @@ TEST(Ranks, TellTheCollisionsOfOneInTheirOrder) {
 
 TEST(Ranks, ExchangeOnceInAWindow) {
   ServingRanks serving(3);
-  Simulation shared = make_simulation(lean_gas(4000, 0.5, Boundary::periodic));
+  Simulation shared = make_simulation(plain_gas(4000, 0.5, Boundary::periodic));
   shared.set_threads({.threads = 2}, serving.first());
   shared.run_until(4.0);
   const std::uint64_t windows = shared.thread_counts().windows;
@@ -271,7 +271,7 @@ TEST(Ranks, SayWhichOfThemCouldNotBegin) {
   serving.first().on_the_way = [](int to, const std::string& bytes) {
     return to == 2 && bytes.size() > 1000 ? bytes.substr(0, bytes.size() - 100) : bytes;
   };
-  Simulation simulation = make_simulation(lean_gas(1000, 0.3, Boundary::walls));
+  Simulation simulation = make_simulation(plain_gas(1000, 0.3, Boundary::walls));
   try {
     simulation.set_threads({}, serving.first());
     FAIL() << "rank 2 has got less than a simulation";
@@ -286,11 +286,11 @@ TEST(Ranks, SayWhichOfThemCouldNotBegin) {
 
 TEST(Ranks, RefuseWhatTheyCannotDo) {
   ServingRanks serving(3);
-  Simulation simulation = make_simulation(lean_gas(100, 0.3, Boundary::walls));
+  Simulation simulation = make_simulation(plain_gas(100, 0.3, Boundary::walls));
   EXPECT_THROW(simulation.set_threads({.threads = 33}, serving.first()), std::invalid_argument);
   EXPECT_THROW(simulation.set_threads({.domains = 1025}, serving.first()), std::invalid_argument);
   EXPECT_THROW(simulation.set_threads({.domains = 2}, serving.first()), std::invalid_argument) << "rank 2 would have none";
-  Simulation textbook = make_simulation(lean_gas(100, 0.3, Boundary::walls), "textbook");
+  Simulation textbook = make_simulation(plain_gas(100, 0.3, Boundary::walls), "textbook");
   EXPECT_THROW(textbook.set_threads({}, serving.first()), std::invalid_argument);
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 TEST(Threads, GiveTheBitsOfOneUnderGravity) {
   for (const Boundary across : {Boundary::walls, Boundary::periodic}) {
-    Scene scene = lean_gas(4000, 0.4, Boundary::walls);
+    Scene scene = plain_gas(4000, 0.4, Boundary::walls);
     scene.box.boundary[0] = across;
     scene.effects.gravity = Gravity{{0.0, -0.2}};
     expect_same_runs(scene, {.threads = 2, .domains = 4}, 20.0, 4);
@@ -21,7 +21,7 @@ TEST(Threads, GiveTheBitsOfOneUnderGravity) {
 }
 
 TEST(Threads, GiveTheBitsOfOneWhereCollisionsLoseEnergy) {
-  Scene scene = lean_gas(4000, 0.4, Boundary::periodic);
+  Scene scene = plain_gas(4000, 0.4, Boundary::periodic);
   scene.effects.collision.restitution = 0.9;
   expect_same_runs(scene, {.domains = 4}, 20.0, 4);
   scene.effects.collision.elastic_below = 1e-3;
@@ -35,7 +35,7 @@ TEST(Threads, GiveTheBitsOfOneWhereCollisionsLoseEnergy) {
 /// A disk that a wall leaves no speed, and that weight presses against it, hits it again and again at one instant: far more often
 /// in a window than a domain lets happen, and less often than time is taken to stand still after.
 TEST(Threads, CollapseWhereOneDoes) {
-  Scene scene = lean_gas(40, 0.2, Boundary::walls);
+  Scene scene = plain_gas(40, 0.2, Boundary::walls);
   scene.effects.walls[1].restitution = 0.0;
   scene.effects.gravity = Gravity{{0.5, 0.0}};
   Simulation alone = make_simulation(scene), shared = make_simulation(scene);
@@ -47,14 +47,14 @@ TEST(Threads, CollapseWhereOneDoes) {
 }
 
 TEST(Threads, GiveTheBitsOfOneForRoughDisks) {
-  Scene scene = lean_gas(4000, 0.4, Boundary::periodic);
+  Scene scene = plain_gas(4000, 0.4, Boundary::periodic);
   scene.effects.collision.restitution = 0.95;
   scene.effects.collision.roughness = 0.3;
   expect_same_runs(scene, {.domains = 4}, 10.0, 4);
 }
 
 TEST(Threads, GiveTheBitsOfOneForDisksWithWells) {
-  Scene scene = lean_gas(4000, 0.3, Boundary::periodic);
+  Scene scene = plain_gas(4000, 0.3, Boundary::periodic);
   scene.effects.square_well = SquareWell{.width = 1.6, .depth = 0.8};
   expect_same_runs(scene, {.threads = 2, .domains = 4}, 10.0, 4);
   scene.effects.square_well = SquareWell{.width = 1.9, .depth = -0.3};
@@ -62,7 +62,7 @@ TEST(Threads, GiveTheBitsOfOneForDisksWithWells) {
 }
 
 TEST(Threads, GiveTheBitsOfOneForDisksWithSteppedPotentials) {
-  Scene scene = lean_gas(4000, 0.3, Boundary::periodic);
+  Scene scene = plain_gas(4000, 0.3, Boundary::periodic);
   scene.effects.stepped_potential = SteppedPotential{{{1.1, 0.5}, {1.3, -0.4}, {1.6, 0.2}, {1.9, -0.1}}};
   expect_same_runs(scene, {.threads = 2, .domains = 4}, 6.0, 4);
   expect_same_runs(scene, {.threads = 3, .domains = 3}, 6.0, 2);
@@ -81,7 +81,7 @@ TEST(Threads, ArePutAsideWhereADiskMayHaveMorePartnersThanAMessageHolds) {
 }
 
 TEST(Threads, GiveTheBitsOfOneBetweenWallsThatVibrate) {
-  Scene scene = lean_gas(3000, 0.4, Boundary::walls);
+  Scene scene = plain_gas(3000, 0.4, Boundary::walls);
   scene.effects.collision.restitution = 0.9;
   scene.effects.collision.elastic_below = 1e-3;
   scene.effects.gravity = Gravity{{0.0, -0.5}};
@@ -97,7 +97,7 @@ TEST(Threads, GiveTheBitsOfOneBetweenWallsThatVibrate) {
 
 /// Walls that go far beyond the box, where coordinates become coarser, and one that presses the gas together.
 TEST(Threads, GiveTheBitsOfOneBetweenWallsThatMove) {
-  Scene scene = lean_gas(3000, 0.4, Boundary::walls);
+  Scene scene = plain_gas(3000, 0.4, Boundary::walls);
   scene.effects.walls[1].velocity = 3.0;
   scene.effects.walls[2].velocity = -1.0;
   Simulation alone = make_simulation(scene), shared = make_simulation(scene);
@@ -117,7 +117,7 @@ TEST(Threads, GiveTheBitsOfOneBetweenWallsThatMove) {
 
 /// Velocities are scaled each time that a disk has collided once on average, and lists are made for larger disks now and then.
 TEST(Threads, GiveTheBitsOfOneWhereDisksGrow) {
-  Scene scene = lean_gas(4000, 0.3, Boundary::periodic);
+  Scene scene = plain_gas(4000, 0.3, Boundary::periodic);
   for (const double rate : {0.003, 0.05}) {
     scene.effects.growth = Growth{.rate = rate};
     expect_same_runs(scene, {.threads = 2, .domains = 4}, 8.0, 4);
@@ -125,7 +125,7 @@ TEST(Threads, GiveTheBitsOfOneWhereDisksGrow) {
   scene.effects.collision.restitution = 0.95;
   scene.effects.collision.roughness = 0.3;
   expect_same_runs(scene, {.domains = 3}, 8.0, 3);
-  scene = lean_gas(3000, 0.3, Boundary::walls);
+  scene = plain_gas(3000, 0.3, Boundary::walls);
   scene.effects.gravity = Gravity{{0.0, -0.1}};
   scene.effects.growth = Growth{.rate = 0.02};
   expect_same_runs(scene, {.domains = 4}, 8.0, 3);
@@ -135,7 +135,7 @@ TEST(Threads, GiveTheBitsOfOneWhereDisksGrow) {
 }
 
 TEST(Threads, StopWhereDisksHaveGrownAsMuchAsOnOne) {
-  Scene scene = lean_gas(4000, 0.3, Boundary::periodic);
+  Scene scene = plain_gas(4000, 0.3, Boundary::periodic);
   for (const Growth& growth : {Growth{.rate = 0.1, .packing_fraction = 0.6}, Growth{.rate = 0.02, .reduced_pressure = 4.0}}) {
     scene.effects.growth = growth;
     Simulation alone = make_simulation(scene), shared = make_simulation(scene);
@@ -148,7 +148,7 @@ TEST(Threads, StopWhereDisksHaveGrownAsMuchAsOnOne) {
 }
 
 TEST(Threads, GiveTheBitsOfOneBetweenObstacles) {
-  Scene scene = lean_gas(3000, 0.3, Boundary::walls);
+  Scene scene = plain_gas(3000, 0.3, Boundary::walls);
   const double x = scene.box.upper[0] / 2.0, y = scene.box.upper[1] / 2.0;
   scene.species[0].positions = RandomPositions{};
   scene.effects.obstacles = {DiskObstacle{{x, y}, 5.0}, SegmentObstacle{{x / 3.0, y / 4.0}, {x / 3.0, y}}};
@@ -156,7 +156,7 @@ TEST(Threads, GiveTheBitsOfOneBetweenObstacles) {
 }
 
 TEST(Threads, GiveTheBitsOfOneInACircle) {
-  Scene scene = lean_gas(3000, 0.3, Boundary::walls);
+  Scene scene = plain_gas(3000, 0.3, Boundary::walls);
   scene.species[0].positions = RandomPositions{};
   const Eigen::Vector2d middle = 0.5 * (scene.box.lower + scene.box.upper);
   put_in_circle(scene.box, scene.effects, {middle, 0.57 * scene.box.lengths().x()});
@@ -167,7 +167,7 @@ TEST(Threads, GiveTheBitsOfOneInACircle) {
 /// Between slow disks two others leave a shoulder, on which they began, 44 times as fast. The light one of them flies across half
 /// a halo within a window, hits what is at home there, and is gone again when copies are compared.
 TEST(Threads, FindWhatShouldersHaveMadeFast) {
-  Scene scene = lean_gas(2, 0.1, Boundary::walls);
+  Scene scene = plain_gas(2, 0.1, Boundary::walls);
   scene.box = {{0.0, 0.0}, {400.0, 10.0}, {Boundary::walls, Boundary::walls}};
   Species& disks = scene.species[0];
   ListedPositions places;

@@ -14,7 +14,7 @@ namespace {
 
 /// The log is taken once, when windows have been void, right and void again.
 TEST(Threads, LogTheEventsOfOneAfterWindowsThatWereVoid) {
-  const Scene scene = lean_gas(4000, 0.5, Boundary::periodic);
+  const Scene scene = plain_gas(4000, 0.5, Boundary::periodic);
   std::uint64_t redone = 0;
   const auto logged = [&](const Threads& threads) {
     Simulation simulation = make_simulation(scene);
@@ -62,7 +62,7 @@ Told told(const Scene& scene, const Threads& threads, std::uint64_t& redone) {
 }
 
 TEST(Threads, TellTheCollisionsOfOneInTheirOrder) {
-  Scene scene = lean_gas(4000, 0.5, Boundary::walls);
+  Scene scene = plain_gas(4000, 0.5, Boundary::walls);
   scene.run.time = 3.0;
   scene.run.sample_every = 0.5;
   std::uint64_t redone = 0;
@@ -93,7 +93,7 @@ TEST(Threads, TellTheCollisionsOfOneInstantInTheirOrder) {
 
 /// Disks of a lattice that meet many others at the same time and lose all of their speed towards each other.
 TEST(Threads, HandOnTheRecordsOfOneInstantInTheirOrder) {
-  Scene scene = lean_gas(144, 0.1, Boundary::walls);
+  Scene scene = plain_gas(144, 0.1, Boundary::walls);
   scene.box = {{0.0, 0.0}, {12.0, 12.0}, {Boundary::walls, Boundary::walls}};
   ListedPositions positions;
   ListedVelocities velocities;

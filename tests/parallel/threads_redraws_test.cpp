@@ -25,7 +25,7 @@ void redraw(Scene& scene, Redrawing how, double rate, double temperature = 1.0) 
 TEST(Threads, GiveTheBitsOfOneWhereVelocitiesAreRedrawn) {
   for (const Redrawing how : all_redrawing)
     for (const double rate : {0.1, 4.0}) {  // a disk collides some five times in a unit of time
-      Scene scene = lean_gas(4000, 0.5, Boundary::periodic);
+      Scene scene = plain_gas(4000, 0.5, Boundary::periodic);
       redraw(scene, how, rate);
       for (const std::size_t domains : {2U, 3U, 16U}) expect_same_runs(scene, {.domains = domains}, 3.0, 3);
       scene.box.boundary = {Boundary::walls, Boundary::walls};
@@ -38,15 +38,15 @@ TEST(Threads, GiveTheBitsOfOneWhereVelocitiesAreRedrawnBesideOtherEffects) {
     Scene scene = mixture(3000);
     redraw(scene, how, 1.0);
     expect_same_runs(scene, {.domains = 4}, 8.0, 3);
-    scene = lean_gas(3000, 0.3, Boundary::walls);
+    scene = plain_gas(3000, 0.3, Boundary::walls);
     scene.effects.gravity = Gravity{{0.0, -0.1}};
     redraw(scene, how, 1.0);
     expect_same_runs(scene, {.domains = 4}, 8.0, 3);
-    scene = lean_gas(3000, 0.3, Boundary::periodic);
+    scene = plain_gas(3000, 0.3, Boundary::periodic);
     scene.effects.square_well = SquareWell{.width = 1.6, .depth = 0.8};
     redraw(scene, how, 1.0);
     expect_same_runs(scene, {.domains = 3}, 6.0, 3);
-    scene = lean_gas(3000, 0.3, Boundary::periodic);
+    scene = plain_gas(3000, 0.3, Boundary::periodic);
     scene.effects.collision.restitution = 0.9;
     scene.effects.collision.roughness = 0.3;
     redraw(scene, how, 1.0);
@@ -58,7 +58,7 @@ TEST(Threads, GiveTheBitsOfOneWhereVelocitiesAreRedrawnBesideOtherEffects) {
 
 /// Redraws at the time of every sample: a step that is a sum of powers of two is not rounded.
 TEST(Threads, GiveTheBitsOfOneWhereRedrawsAndStopsComeAtOneTime) {
-  Scene scene = lean_gas(4000, 0.5, Boundary::periodic);
+  Scene scene = plain_gas(4000, 0.5, Boundary::periodic);
   redraw(scene, Redrawing::brownian, 4.0);
   Simulation alone = make_simulation(scene), shared = make_simulation(scene);
   shared.set_threads({.domains = 4});
@@ -75,7 +75,7 @@ TEST(Threads, GiveTheBitsOfOneWhereRedrawsAndStopsComeAtOneTime) {
 TEST(Threads, GiveTheBitsOfOneInABathThatIsMuchHotter) {
   for (const Redrawing how : {Redrawing::thermostat, Redrawing::brownian})
     for (const double temperature : {1e2, 1e8}) {
-      Scene scene = lean_gas(4000, 0.4, Boundary::walls);
+      Scene scene = plain_gas(4000, 0.4, Boundary::walls);
       redraw(scene, how, temperature > 1e4 ? 0.02 : 1.0, temperature);
       SCOPED_TRACE("kT " + std::to_string(temperature));
       expect_same_at({0.5, 1.0}, scene, {.domains = 4});
@@ -84,7 +84,7 @@ TEST(Threads, GiveTheBitsOfOneInABathThatIsMuchHotter) {
 
 TEST(Threads, BeginAtRestWhereABathMovesDisks) {
   for (const Redrawing how : {Redrawing::thermostat, Redrawing::brownian}) {
-    Scene scene = lean_gas(2000, 0.4, Boundary::periodic);
+    Scene scene = plain_gas(2000, 0.4, Boundary::periodic);
     scene.species[0].velocities = MaxwellVelocities{0.0};
     redraw(scene, how, 1.0);
     EXPECT_GT(expect_same_at({2.0, 6.0, 12.0}, scene, {.domains = 4}).windows, 10U);
@@ -94,7 +94,7 @@ TEST(Threads, BeginAtRestWhereABathMovesDisks) {
 /// A window that is void takes back the redraws in it, and their energy.
 TEST(Threads, MakeRedrawsOfVoidWindowsOnce) {
   for (const Redrawing how : all_redrawing) {
-    Scene scene = lean_gas(6000, 0.5, Boundary::periodic);
+    Scene scene = plain_gas(6000, 0.5, Boundary::periodic);
     redraw(scene, how, 2.0);
     const ThreadCounts counts = expect_same_at({0.7, 4.0}, scene, {.domains = 4, .halo = 3.0, .events_per_window = 1.0});
     EXPECT_GT(counts.windows_redone, 0U);
@@ -103,7 +103,7 @@ TEST(Threads, MakeRedrawsOfVoidWindowsOnce) {
 
 TEST(Threads, StopAtExactNumbersBetweenRedraws) {
   for (const Redrawing how : all_redrawing) {
-    Scene scene = lean_gas(4000, 0.5, Boundary::walls);
+    Scene scene = plain_gas(4000, 0.5, Boundary::walls);
     redraw(scene, how, 2.0);
     Simulation alone = make_simulation(scene), shared = make_simulation(scene);
     shared.set_threads({.threads = 2, .domains = 4});
@@ -128,7 +128,7 @@ TEST(Threads, StopAtExactNumbersBetweenRedraws) {
 
 TEST(Threads, GoOnWithRedrawsFromWhatOtherNumbersOfThemHaveSaved) {
   for (const Redrawing how : all_redrawing) {
-    Scene scene = lean_gas(4000, 0.5, Boundary::periodic);
+    Scene scene = plain_gas(4000, 0.5, Boundary::periodic);
     redraw(scene, how, 1.0);
     expect_same_after_saves(scene, 1.9, 3.1, 5.0);
   }
@@ -136,7 +136,7 @@ TEST(Threads, GoOnWithRedrawsFromWhatOtherNumbersOfThemHaveSaved) {
 
 /// Most disks of a lattice meet in pairs at the time at which all velocities are redrawn, and some of them meet again at once.
 TEST(Threads, TellCollisionsAndRedrawsOfOneInstantInTheirOrder) {
-  Scene scene = lean_gas(400, 0.2, Boundary::walls);
+  Scene scene = plain_gas(400, 0.2, Boundary::walls);
   scene.box = {{0.0, 0.0}, {40.0, 40.0}, {Boundary::walls, Boundary::walls}};
   ListedPositions positions;
   ListedVelocities velocities;

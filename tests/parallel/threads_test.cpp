@@ -18,7 +18,7 @@ namespace {
 
 TEST(Threads, GiveTheBitsOfOneForAnyNumberOfDomains) {
   for (const std::size_t domains : {2U, 3U, 8U, 16U})
-    expect_same_runs(lean_gas(4000, 0.6, Boundary::periodic), {.threads = 1, .domains = domains}, 6.0, 3);
+    expect_same_runs(plain_gas(4000, 0.6, Boundary::periodic), {.threads = 1, .domains = domains}, 6.0, 3);
 }
 
 /// A run stops every now and then at a number of collisions, of which a lattice has few at first and then many.
@@ -44,19 +44,19 @@ TEST(Threads, KeepTheirWindowsAfterAStartFromALattice) {
 
 TEST(Threads, GiveTheBitsOfOneForAnyNumberOfThreads) {
   for (const std::size_t threads : {2U, 3U, 4U})
-    expect_same_runs(lean_gas(6000, 0.5, Boundary::walls), {.threads = threads}, 4.0, 2);
+    expect_same_runs(plain_gas(6000, 0.5, Boundary::walls), {.threads = threads}, 4.0, 2);
 }
 
-TEST(Threads, GiveTheBitsOfOneForEveryLeanScene) {
-  expect_same_runs(lean_gas(5000, 0.3, Boundary::walls), {.domains = 4}, 10.0, 3);
-  expect_same_runs(lean_gas(5000, 0.72, Boundary::periodic), {.domains = 4}, 2.0, 3);
-  expect_same_runs(lean_gas(5000, 0.4, Boundary::periodic, CollisionRule::reversal), {.domains = 4}, 6.0, 3);
+TEST(Threads, GiveTheBitsOfOneForEveryGas) {
+  expect_same_runs(plain_gas(5000, 0.3, Boundary::walls), {.domains = 4}, 10.0, 3);
+  expect_same_runs(plain_gas(5000, 0.72, Boundary::periodic), {.domains = 4}, 2.0, 3);
+  expect_same_runs(plain_gas(5000, 0.4, Boundary::periodic, CollisionRule::reversal), {.domains = 4}, 6.0, 3);
   expect_same_runs(mixture(3000), {.domains = 4}, 8.0, 3);
-  expect_same_runs(lean_gas(4000, 0.02, Boundary::periodic), {.domains = 4}, 200.0, 3);
+  expect_same_runs(plain_gas(4000, 0.02, Boundary::periodic), {.domains = 4}, 200.0, 3);
 }
 
 TEST(Threads, GiveTheBitsOfOneForAGasInACorner) {
-  Scene scene = lean_gas(3000, 0.5, Boundary::walls);
+  Scene scene = plain_gas(3000, 0.5, Boundary::walls);
   scene.species[0].positions = ListedPositions{};
   scene.box.upper *= 4.0;
   const int columns = 60;
@@ -69,7 +69,7 @@ TEST(Threads, GiveTheBitsOfOneForAGasInACorner) {
 /// In the epoch that begins at time 8 the domain at the left gets more disks than it has room for, and all goes back to the
 /// beginning of the epoch: what the domain could not read by then makes no plan stale.
 TEST(Threads, GoBackToTheRightPlansWhereADomainHasNoRoom) {
-  Scene scene = lean_gas(3000, 0.4, Boundary::walls);
+  Scene scene = plain_gas(3000, 0.4, Boundary::walls);
   scene.effects.collision.restitution = 0.9;
   scene.effects.gravity = Gravity{{0.0, -0.5}};
   scene.effects.walls[2] = {.restitution = 0.95, .oscillation = Oscillation{WaveForm::sine, 0.4, 1.5}};
@@ -83,7 +83,7 @@ TEST(Threads, GoBackToTheRightPlansWhereADomainHasNoRoom) {
 
 /// A gas that cools down to a thousandth of its speed has windows a thousand times as long.
 TEST(Threads, AdaptWindowsToDisksThatBecomeSlow) {
-  Scene scene = lean_gas(4000, 0.4, Boundary::periodic);
+  Scene scene = plain_gas(4000, 0.4, Boundary::periodic);
   scene.effects.collision.restitution = 0.7;
   Simulation alone = make_simulation(scene), shared = make_simulation(scene);
   shared.set_threads({.domains = 4});
@@ -95,7 +95,7 @@ TEST(Threads, AdaptWindowsToDisksThatBecomeSlow) {
 
 /// Cold disks that a heavy one runs into leave it much faster than any disk was when the epoch began.
 TEST(Threads, GiveTheBitsOfOneWhereADiskOutrunsItsEpoch) {
-  Scene scene = lean_gas(4000, 0.2, Boundary::periodic);
+  Scene scene = plain_gas(4000, 0.2, Boundary::periodic);
   scene.species[0].velocities = MaxwellVelocities{1e-3};
   Species ball = scene.species[0];
   ball.name = "ball";
@@ -119,7 +119,7 @@ TEST(Threads, GiveTheBitsOfOneWhereADiskOutrunsItsEpoch) {
 
 /// A window that is void leaves the disks to one core up to the end of its epoch, but no longer where the clock begins anew.
 TEST(Threads, ComputeAgainAfterTheClockBeganAnew) {
-  Scene scene = lean_gas(4000, 0.2, Boundary::periodic);
+  Scene scene = plain_gas(4000, 0.2, Boundary::periodic);
   Simulation alone = make_simulation(scene), shared = make_simulation(scene);
   shared.set_threads({.domains = 4, .halo = 2.5, .events_per_window = 3.0});
   double time = 0.0;
@@ -142,7 +142,7 @@ TEST(Threads, FindEveryWindowThatTheirHalosAreTooNarrowFor) {
   std::uint64_t redone = 0;
   for (const double halo : {2.5, 3.0, 4.0, 6.0})
     for (const double events : {0.2, 1.0, 3.0}) {
-      const Scene scene = lean_gas(6000, 0.5, Boundary::periodic);
+      const Scene scene = plain_gas(6000, 0.5, Boundary::periodic);
       Simulation alone = make_simulation(scene), shared = make_simulation(scene);
       shared.set_threads({.domains = 4, .halo = halo, .events_per_window = events});
       alone.run_until(8.0);
@@ -173,7 +173,7 @@ TEST(Threads, GiveTheBitsOfOneWhereAStopIsTheEndOfAnEpochToRounding) {
 /// A window that is void takes back what happened since the whole engine was last up to date, which is more than a caller may ask
 /// for at a time. Such a caller would see a run that goes nowhere.
 TEST(Threads, NeverGoBackBehindWhatTheyHaveTold) {
-  const Scene scene = lean_gas(6000, 0.5, Boundary::periodic);
+  const Scene scene = plain_gas(6000, 0.5, Boundary::periodic);
   const auto engine = make_engine("fast", scene);
   engine->set_threads({.domains = 4, .halo = 3.5, .events_per_window = 0.1});
   std::uint64_t pairs = 0;
@@ -189,7 +189,7 @@ TEST(Threads, NeverGoBackBehindWhatTheyHaveTold) {
 }
 
 TEST(Threads, StopAtAnExactNumberOfCollisions) {
-  const Scene scene = lean_gas(6000, 0.6, Boundary::periodic);
+  const Scene scene = plain_gas(6000, 0.6, Boundary::periodic);
   Simulation alone = make_simulation(scene), shared = make_simulation(scene);
   shared.set_threads({.threads = 2, .domains = 4});
   for (const std::uint64_t collisions : {1U, 3000U, 20001U, 20002U, 50000U}) {
@@ -200,7 +200,7 @@ TEST(Threads, StopAtAnExactNumberOfCollisions) {
 }
 
 TEST(Threads, StopAtAnExactNumberOfEvents) {
-  const Scene scene = lean_gas(4000, 0.5, Boundary::walls);
+  const Scene scene = plain_gas(4000, 0.5, Boundary::walls);
   Simulation alone = make_simulation(scene), shared = make_simulation(scene);
   shared.set_threads({.domains = 3});
   for (const std::uint64_t events : {10U, 30000U}) {
@@ -211,11 +211,11 @@ TEST(Threads, StopAtAnExactNumberOfEvents) {
 }
 
 TEST(Threads, GoOnFromWhatOtherNumbersOfThemHaveSaved) {
-  expect_same_after_saves(lean_gas(4000, 0.5, Boundary::periodic), 2.3, 4.1, 6.0);
+  expect_same_after_saves(plain_gas(4000, 0.5, Boundary::periodic), 2.3, 4.1, 6.0);
 }
 
 TEST(Threads, GoOnAfterSingleStepsAndChanges) {
-  const Scene scene = lean_gas(4000, 0.5, Boundary::periodic);
+  const Scene scene = plain_gas(4000, 0.5, Boundary::periodic);
   Simulation alone = make_simulation(scene), shared = make_simulation(scene);
   shared.set_threads({.domains = 4});
   for (Simulation* simulation : {&alone, &shared}) {
@@ -235,7 +235,7 @@ TEST(Threads, GoOnAfterSingleStepsAndChanges) {
 }
 
 TEST(Threads, BeginWhereAChangeEndsWhatKeepsTheRunOnOneCore) {
-  Scene scene = lean_gas(4000, 0.5, Boundary::periodic);
+  Scene scene = plain_gas(4000, 0.5, Boundary::periodic);
   scene.effects.drag = Drag{0.02};
   EXPECT_EQ(make_simulation(scene).why_not_threads(), "drag slows the clock");
   EXPECT_THROW(make_simulation(scene).set_threads({.domains = 3}), std::invalid_argument);
@@ -259,7 +259,7 @@ TEST(Threads, BeginWhereAChangeEndsWhatKeepsTheRunOnOneCore) {
 }
 
 TEST(Threads, CountWhatTheyTookThroughChanges) {
-  Scene scene = lean_gas(4000, 0.5, Boundary::walls);
+  Scene scene = plain_gas(4000, 0.5, Boundary::walls);
   Simulation shared = make_simulation(scene);
   shared.set_threads({.threads = 2, .domains = 4});
   shared.run_until(1.0);
@@ -285,7 +285,7 @@ TEST(Threads, CountWhatTheyTookThroughChanges) {
 }
 
 TEST(Threads, RunASchedule) {
-  Scene scene = lean_gas(4000, 0.5, Boundary::periodic);
+  Scene scene = plain_gas(4000, 0.5, Boundary::periodic);
   scene.run.equilibrate = Run::Equilibrate{.collisions_per_disk = 4.0};
   scene.run.time = 3.0;
   scene.run.sample_every = 0.1;
@@ -313,13 +313,13 @@ TEST(Threads, RunASchedule) {
 }
 
 TEST(Threads, RefuseWhatTheyCannotDo) {
-  Simulation simulation = make_simulation(lean_gas(100, 0.3, Boundary::walls));
+  Simulation simulation = make_simulation(plain_gas(100, 0.3, Boundary::walls));
   EXPECT_THROW(simulation.set_threads({.threads = 0}), std::invalid_argument);
   EXPECT_THROW(simulation.set_threads({.threads = 33}), std::invalid_argument);
   EXPECT_THROW(simulation.set_threads({.domains = 33}), std::invalid_argument);
   EXPECT_THROW(simulation.set_threads({.threads = 2, .halo = -1.0}), std::invalid_argument);
   EXPECT_THROW(simulation.set_threads({.threads = 2, .events_per_window = -1.0}), std::invalid_argument);
-  Simulation textbook = make_simulation(lean_gas(100, 0.3, Boundary::walls), "textbook");
+  Simulation textbook = make_simulation(plain_gas(100, 0.3, Boundary::walls), "textbook");
   EXPECT_FALSE(textbook.why_not_threads().empty());
   EXPECT_THROW(textbook.set_threads({.threads = 2}), std::invalid_argument);
   textbook.set_threads({});

@@ -21,7 +21,7 @@ class AllObstacles {
   }
 
  private:
-  Domain<double> domain_;
+  SimulationBox<double> domain_;
   ObstacleShapes<double> shapes_;
 };
 

@@ -3,9 +3,9 @@
 // pairs, in all images that can matter, and all walls, and takes the first. Same arithmetic, so the same bits.
 
 #include "core/contact_time.hpp"
-#include "core/domain.hpp"
 #include "core/instant.hpp"
 #include "core/sides.hpp"
+#include "core/simulation_box.hpp"
 #include "effects/impact.hpp"
 #include "engine/epoch.hpp"
 
@@ -28,7 +28,7 @@ struct WallContact {
 /// The next contact of a disk of the given radius, at position r at time t, with a wall. A disk that touches or
 /// overlaps a wall and moves into it is in contact now. Of a corner's two walls the vertical one comes first.
 template <class Real>
-[[nodiscard]] WallContact<Real> next_wall_contact(const Domain<Real>& domain, const Vec2<Real>& r, const Vec2<Real>& v,
+[[nodiscard]] WallContact<Real> next_wall_contact(const SimulationBox<Real>& domain, const Vec2<Real>& r, const Vec2<Real>& v,
                                                   Real radius, Real t) {
   WallContact<Real> next;
   for (int a = 0; a < 2; ++a) {
@@ -151,7 +151,7 @@ class AllPairsTwin {
     length_ = epoch_length(box_size() / std::sqrt(std::max(n(), 1)), speed);
   }
 
-  Domain<double> domain_;
+  SimulationBox<double> domain_;
   Disks disks_;
   std::vector<Vec2<double>> r_;
   std::vector<Vec2<double>> v_;

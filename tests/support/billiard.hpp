@@ -1,7 +1,7 @@
 #pragma once
 // One disk among obstacles: the smallest loop that bounces, to test obstacles without an engine.
 
-#include "core/domain.hpp"
+#include "core/simulation_box.hpp"
 #include "effects/obstacles.hpp"
 #include "support/scenes.hpp"
 
@@ -46,7 +46,7 @@ struct Billiard {
     path += t * v.norm();
     r += t * (v + t / 2 * g);
     v += t * g;
-    static_cast<void>(Domain<double>(box).wrap(r));
+    static_cast<void>(SimulationBox<double>(box).wrap(r));
   }
   void bounce(std::int32_t obstacle) {
     const Vec2<double> n = obstacles.from_nearest_point(obstacle, r);

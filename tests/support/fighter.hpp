@@ -109,7 +109,7 @@ inline Fighter fight(const Scene& scene, const std::string& engine, std::uint64_
   double largest = before.scale(), last_time = 0.0;
   running->record_events(true);
   constexpr std::uint64_t stretch = 40;
-  for (std::uint64_t done = 0; done < count && !running->idle() && !running->jammed() && !running->ended(); done += stretch) {
+  for (std::uint64_t done = 0; done < count && !running->idle() && !running->is_stalled() && !running->ended(); done += stretch) {
     running->run_until(forever, no_limit, stretch);
     const State state = running->state();
     const double time = running->now().high;

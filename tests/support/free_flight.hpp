@@ -2,7 +2,7 @@
 // Disks that fly through one another and only change cells, fold at periodic edges and bounce off walls: what a cell
 // grid must follow, without the engine that uses it.
 
-#include "core/domain.hpp"
+#include "core/simulation_box.hpp"
 #include "neighbours/cell_grid.hpp"
 
 #include <algorithm>
@@ -135,7 +135,7 @@ class FreeFlight {
     return first;
   }
 
-  Domain<double> domain_;
+  SimulationBox<double> domain_;
   double reach_;
   CellGrid<double> grid_;
   std::vector<Disk> disks_;

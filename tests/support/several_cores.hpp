@@ -14,8 +14,8 @@
 
 namespace carom::test {
 
-inline Scene lean_gas(std::int64_t disks, double packing_fraction, Boundary boundary,
-                      CollisionRule rule = CollisionRule::specular) {
+inline Scene plain_gas(std::int64_t disks, double packing_fraction, Boundary boundary,
+                       CollisionRule rule = CollisionRule::specular) {
   Scene scene = gas_scene(disks, packing_fraction, boundary);
   scene.effects.collision.rule = rule;
   return scene;
@@ -23,7 +23,7 @@ inline Scene lean_gas(std::int64_t disks, double packing_fraction, Boundary boun
 
 /// Disks of two sizes in a gas, one of them as heavy as it is large.
 inline Scene mixture(std::int64_t disks) {
-  Scene scene = lean_gas(disks, 0.3, Boundary::walls);
+  Scene scene = plain_gas(disks, 0.3, Boundary::walls);
   scene.box.upper *= 1.5;
   scene.species[0].positions = RandomPositions{};
   Species large = scene.species[0];

@@ -1,4 +1,4 @@
-#include "core/domain.hpp"
+#include "core/simulation_box.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -6,29 +6,29 @@
 namespace carom::test {
 namespace {
 
-const Domain<double> periodic_domain(Box{{-1.0, 2.0}, {1.0, 5.0}, {Boundary::periodic, Boundary::periodic}});
+const SimulationBox<double> periodic_domain(Box{{-1.0, 2.0}, {1.0, 5.0}, {Boundary::periodic, Boundary::periodic}});
 
-TEST(Domain, PositionsInsideAreNotTouched) {
+TEST(SimulationBox, PositionsInsideAreNotTouched) {
   Vec2<double> r(-1.0, 4.999);
   EXPECT_EQ(periodic_domain.wrap(r), Winding(0, 0));
   EXPECT_EQ(r, Vec2<double>(-1.0, 4.999));
 }
 
-TEST(Domain, TheUpperEdgeIsTheLowerEdgeOfTheNextBox) {
+TEST(SimulationBox, TheUpperEdgeIsTheLowerEdgeOfTheNextBox) {
   Vec2<double> r(1.0, 5.0);
   EXPECT_EQ(periodic_domain.wrap(r), Winding(1, 1));
   EXPECT_EQ(r, Vec2<double>(-1.0, 2.0));
 }
 
-TEST(Domain, WalledAxesAreNeverFolded) {
-  const Domain<double> channel(Box{{0.0, 0.0}, {1.0, 1.0}, {Boundary::walls, Boundary::periodic}});
+TEST(SimulationBox, WalledAxesAreNeverFolded) {
+  const SimulationBox<double> channel(Box{{0.0, 0.0}, {1.0, 1.0}, {Boundary::walls, Boundary::periodic}});
   Vec2<double> r(1.5, 1.5);
   EXPECT_EQ(channel.wrap(r), Winding(0, 1));
   EXPECT_EQ(r, Vec2<double>(1.5, 0.5));
 }
 
-TEST(Domain, AnUlpBelowTheLowerEdgeEndsInsideTheBox) {
-  const Domain<double> unit(Box{{0.0, 0.0}, {1.0, 1.0}, {Boundary::periodic, Boundary::periodic}});
+TEST(SimulationBox, AnUlpBelowTheLowerEdgeEndsInsideTheBox) {
+  const SimulationBox<double> unit(Box{{0.0, 0.0}, {1.0, 1.0}, {Boundary::periodic, Boundary::periodic}});
   Vec2<double> r(-1e-300, 0.5);
   const Winding winding = unit.wrap(r);
   EXPECT_TRUE(r.x() >= 0.0 && r.x() < 1.0) << r.x() << " " << winding.x();

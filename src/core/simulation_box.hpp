@@ -12,13 +12,13 @@
 namespace carom {
 
 template <class Real>
-struct Domain {
+struct SimulationBox {
   Vec2<Real> lower;
   Vec2<Real> upper;
   Vec2<Real> length;
   bool periodic[2];
 
-  explicit Domain(const Box& box)
+  explicit SimulationBox(const Box& box)
       : lower(box.lower.cast<Real>()),
         upper(box.upper.cast<Real>()),
         length(upper - lower),

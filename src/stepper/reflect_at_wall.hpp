@@ -12,7 +12,7 @@ namespace carom {
 
 /// Reverses the velocity of disk i across the lower wall of an axis, or the upper one where `above`, and takes from it what the
 /// wall's restitution says. A disk that is pressed against the wall leaves it as rebound() says.
-inline void turn_at_wall(Bodies& bodies, std::size_t i, int axis, bool above, Tally& tally) {
+inline void reflect_at_wall(Bodies& bodies, std::size_t i, int axis, bool above, Tally& tally) {
   const Wall wall = wall_of(axis, above);
   const double sign = above ? 1.0 : -1.0;
   double& across = bodies.v[i][axis];
@@ -26,7 +26,7 @@ inline void turn_at_wall(Bodies& bodies, std::size_t i, int axis, bool above, Ta
 
 /// Reverses the velocity of disk i across the surface of a fixed shape that it overlaps. A disk that is pressed against it leaves
 /// it as rebound() says.
-inline void turn_at_shape(Bodies& bodies, std::size_t i, const StepShapes::Overlap& overlap, Tally& tally) {
+inline void reflect_at_shape(Bodies& bodies, std::size_t i, const StepShapes::Overlap& overlap, Tally& tally) {
   const double closing = -overlap.normal.dot(bodies.v[i]);
   const double parting = closing > 0.0 ? rebound(closing, 1.0, -overlap.normal.dot(bodies.falling.g), bodies.radius[i]) : closing;
   bodies.v[i] += (closing + parting) * overlap.normal;
