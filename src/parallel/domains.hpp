@@ -202,12 +202,14 @@ class Domains {
   void redraw_alone();
   /// Finds out where the whole engine has each disk.
   void number_slots();
-  /// Keeps what redraws are to go back to with the disks that the whole engine has.
-  void keep_redraws() {
+  /// Keeps the redraws and the numbers of events that belong to the disks of the whole engine, for go_back().
+  void keep_progress() {
     if (redraws_ != nullptr) kept_redraws_ = *redraws_;
+    kept_events_ = done_.events, kept_copied_events_ = done_.copied_events;
   }
-  void restore_redraws() {
+  void restore_progress() {
     if (redraws_ != nullptr) *redraws_ = *kept_redraws_;
+    done_.events = kept_events_, done_.copied_events = kept_copied_events_;
   }
   void read_messages(std::size_t d);
   void count_collisions();
@@ -322,19 +324,23 @@ class Domains {
   std::vector<double> seconds_;                        ///< processor time of each domain since all met
   std::vector<double> epoch_seconds_;                  ///< the same in this epoch
   std::vector<double> cost_of_disk_;  ///< processor time of each disk of a domain in the last epoch; empty where not measured
-  int unbalanced_for_ = 0;            ///< epochs
+  static constexpr int least_unbalanced = 4;
+  int unbalanced_for_ = 0;                     ///< epochs
+  int most_unbalanced_ = least_unbalanced;     ///< epochs after which borders move
   std::vector<SpeedSummary> speed_summaries_;  ///< by domain
   std::vector<std::uint64_t> longest_lists_;
   std::optional<Instant> alone_until_;               ///< the whole engine goes on until then
   Instant last_void_epoch_{-infinity<double>, 0.0};  ///< the last epoch with a window that was void
+  int void_in_a_row_ = 0;                            ///< windows since one was right
 
   double now_ = 0.0;     ///< since the epoch
   double window_ = 0.0;  ///< length of the next
   double shortest_window_ = 0.0;
   double window_end_ = 0.0;
-  Instant end_;                                     ///< of the run
-  std::optional<Redraws> kept_redraws_;             ///< as they were in the last state known to be right
-  std::vector<Redraw> due_;                         ///< redraws of this window, in their order
+  Instant end_;                                             ///< of the run
+  std::optional<Redraws> kept_redraws_;                     ///< as they were in the last state known to be right
+  std::uint64_t kept_events_ = 0, kept_copied_events_ = 0;  ///< of done_, up to then
+  std::vector<Redraw> due_;                                 ///< redraws of this window, in their order
   std::size_t most_redraws_ = 0;                    ///< of them that happen: all, if the limit of collisions does not come before
   std::vector<ExactSum> redraw_energies_;           ///< by domain: gained in this window
   bool window_begins_ = false;                      ///< and other ranks do not know it yet
@@ -352,7 +358,8 @@ class Domains {
   bool at_limit_ = false;                           ///< the last events before the limit were processed one by one
   double stepped_to_ = 0.0;                         ///< time of the last of them
   std::uint64_t events_at_window_begin_ = 0;        ///< events when the window began
-  std::uint64_t events_at_run_begin_ = 0;           ///< events when the run began
+  /// Events and epochs of this call of run_until(), also those of void windows: in which time passes outside.
+  std::uint64_t work_ = 0;
   Next next_ = Next::window;
   double half_width_ = 0.0;
   bool lists_change_ = false, plans_change_ = false, has_fallen_ = false;  ///< in the epoch that begins

@@ -58,6 +58,7 @@ void Domains<Impact, Layout, World>::lead_epoch() {
   watch_speeds(speeds);
   whole_.impact_.rebase(now_);
   whole_.rebase_clock(now_);
+  ++work_;
   whole_.stamp_ = 1;
   momentum_correction_.setZero();
   if constexpr (!Impact::plain)
@@ -99,7 +100,7 @@ void Domains<Impact, Layout, World>::end_of_epoch() {
     whole_.totals_.numerics.longest_neighbour_list = longest;
   }
   count_steps();
-  keep_redraws();
+  keep_progress();
   all_stored_here_ = ranks_ == nullptr;
   collisions_delivered_ = events_delivered_ = 0;
   now_ = 0.0;
@@ -113,20 +114,25 @@ void Domains<Impact, Layout, World>::end_of_epoch() {
     next_ = Next::balance;
   else if (factor_)
     next_ = Next::arrived;
+  else if (work_ >= event_limit_)
+    next_ = Next::counted;
   else
     begin_window();
 }
 
 /// Notes how much longer than the others one domain has taken in the last epoch. Returns whether that was much in four epochs in
-/// a row, so that borders are to be moved; their costs are then known.
+/// a row, so that borders are to be moved; their costs are then known. Where that does not help, as where one disk has most of
+/// the events, it is twice as many epochs the next time.
 template <class Impact, class Layout, class World>
 bool Domains<Impact, Layout, World>::note_imbalance() {
   double all = 0.0, longest = 0.0;
   for (const Facts& facts : facts_) all += facts.epoch_seconds, longest = std::max(longest, facts.epoch_seconds);
   const bool unbalanced = longest * static_cast<double>(facts_.size()) > 1.25 * all;
   unbalanced_for_ = unbalanced ? unbalanced_for_ + 1 : 0;
-  if (unbalanced_for_ >= 4) {
+  if (!unbalanced) most_unbalanced_ = least_unbalanced;
+  if (unbalanced_for_ >= most_unbalanced_) {
     unbalanced_for_ = 0;
+    most_unbalanced_ = std::min(2 * most_unbalanced_, 1024);
     cost_of_disk_.clear();
     for (const Facts& facts : facts_)
       cost_of_disk_.push_back((facts.epoch_seconds + 1e-9) / static_cast<double>(facts.homes + 1));

@@ -39,15 +39,22 @@ bool Domains<Impact, Layout, World>::run_until(const Instant& target, std::uint6
     gather();
     // After a window that was void the whole engine stands before what the caller knows of already.
     const std::uint64_t behind = delivered - std::min(delivered, detail::all_events(counts()));
-    const std::uint64_t limit = behind < no_limit - event_limit ? event_limit + behind : no_limit;
-    const std::uint64_t before = detail::all_events(whole_.totals_);
+    std::uint64_t left = event_limit - std::min(event_limit, work_);
+    if (!exact) left = std::max(left, std::uint64_t{64});  // enough for the epochs that it has to begin once more
+    const std::uint64_t limit = behind < no_limit - left ? left + behind : no_limit;
+    const Counts before = whole_.totals_;
     const bool arrived =
         serially([&] { return exact ? engine_.run_until(until, pair_limit, limit) : run_alone(until, pair_limit, limit); });
-    done_.events_alone += detail::all_events(whole_.totals_) - before;
+    done_.events_alone += detail::all_events(whole_.totals_) - detail::all_events(before);
+    work_ += detail::events_and_epochs(whole_.totals_) - detail::events_and_epochs(before);
     return arrived;
   };
+  const Instant begun = now();
+  work_ = 0;
   for (;;) {
     const Counts so_far = counts();
+    const bool is_behind = detail::all_events(so_far) < delivered || now() < begun;  // after a void window
+    if (work_ > 0 && work_ >= event_limit && !is_behind) return false;
     if (!exact && whole_.idle() && redraws_ != nullptr && redraws_->heat() && redraws_->due_by(target)) {
       if (!alone(redraws_->time())) return false;  // the first that moves
       continue;
@@ -66,7 +73,6 @@ bool Domains<Impact, Layout, World>::run_until(const Instant& target, std::uint6
     end_ = target;
     pair_limit_ = pair_limit;
     event_limit_ = event_limit;
-    events_at_run_begin_ = done_.events;
     begin_window();
     if (ranks_ != nullptr) order(Order::run);
     tell_decision();
@@ -82,11 +88,11 @@ template <class Impact, class Layout, class World>
 bool Domains<Impact, Layout, World>::run_alone(const Instant& until, std::uint64_t pair_limit, std::uint64_t event_limit) {
   if (redraws_ == nullptr) return engine_.run_until(until, pair_limit, event_limit);
   number_slots();
-  for (;;) {
-    const std::uint64_t before = detail::all_events(whole_.totals_);
-    const bool arrived = engine_.run_until(std::min(until, redraws_->time()), pair_limit, event_limit);
+  const auto happened = [this] { return detail::events_and_epochs(whole_.totals_) + redraws_->done().redraws; };
+  for (const std::uint64_t before = happened();;) {
+    const std::uint64_t left = event_limit - std::min(event_limit, happened() - before);
+    const bool arrived = engine_.run_until(std::min(until, redraws_->time()), pair_limit, left);
     if (!arrived || !redraws_->due_by(until)) return arrived;
-    event_limit -= std::min(event_limit, detail::all_events(whole_.totals_) - before);
     redraw_alone();
   }
 }
@@ -137,12 +143,12 @@ void Domains<Impact, Layout, World>::end_run() {
       if (!momentum_correction_.isZero(0.0)) alone_until_ = whole_.epoch_.plus(whole_.epoch_length_);
       break;
     case Next::failed:
-      restore_redraws();
+      restore_progress();
       go_back();
       throw_failure();
       break;
     case Next::whole_engine:
-      restore_redraws();
+      restore_progress();
       go_back();
       break;
     default:
@@ -224,7 +230,7 @@ void Domains<Impact, Layout, World>::leave_to_domains() {
   whole_.recorder_.log_elsewhere(true);
   all_stored_here_ = true;
   collisions_delivered_ = events_delivered_ = 0;
-  keep_redraws();
+  keep_progress();
   whole_.lists_.clear();
   whole_.queue_.clear();
   shared_ = up_to_date_ = true;
@@ -259,7 +265,7 @@ void Domains<Impact, Layout, World>::update() {
   all_stored_here_ = true;
   whole_.stamp_ = 1;
   whole_.now_ = now_;
-  keep_redraws();
+  keep_progress();
   collisions_delivered_ = events_delivered_ = 0;
   up_to_date_ = true;
 }

@@ -204,11 +204,11 @@ void Domains<Impact, Layout, World>::decide() {
     allowed = std::max(allowed, facts.read_at_home);
     fastest_ = std::max(fastest_, facts.fastest);  // a distance from home is that along one axis
     done_.events += facts.events;
+    work_ += facts.events;
     done_.copied_events += facts.copied_events;
     done_.copies += facts.halo_check.compared;
     done_.copies_wrong += facts.halo_check.wrong;
   }
-  const std::uint64_t happened = done_.events;
   allowed += fastest_ * (window_end_ - now_) + half_width_;
   // A disk at home that only plans something wrong may have been misled by a copy somewhat farther out. The domain beyond its
   // border tells then, unless that is so thin that it has been misled too.
@@ -227,17 +227,22 @@ void Domains<Impact, Layout, World>::decide() {
     // The whole engine begins where the epoch did, and to share out its disks costs too: a second time it goes to the end.
     const bool again = !(last_void_epoch_ < whole_.epoch_);
     last_void_epoch_ = whole_.epoch_;
-    alone_until_ = whole_.epoch_.plus(again ? whole_.epoch_length_ : window_end_);
+    // Where a few disks are so fast that windows are void one after the other, one core goes on for more and more epochs.
+    const int more = std::clamp(++void_in_a_row_ - 8, 0, 10);
+    alone_until_ = whole_.epoch_.plus(again || more > 0 ? std::ldexp(whole_.epoch_length_, more) : window_end_);
   } else {
-    // After a start from a lattice there are few collisions at first, and then many: the last window alone may say too little.
-    pair_rate_ = std::max(0.75 * pair_rate_at_window_begin_, pairs > pairs_at_window_begin_ + 200 ? rate : 0.0);
+    void_in_a_row_ = 0;
+    // After a start from a lattice there are few collisions at first, and then many: the last window alone may say too little. A
+    // rate that was halved because far fewer came than it promised stays as low, but for what chance may have done to it.
+    pair_rate_ = std::max(std::min(0.75 * pair_rate_at_window_begin_, 4.0 * pair_rate_),
+                          pairs > pairs_at_window_begin_ + 200 ? rate : 0.0);
     hand_over_records();
     if (redraws_ != nullptr) count_redraws();
     const bool whole_window = length >= 0.99 * window_;  // not cut short by a sample or an epoch
     now_ = window_end_;
     adapt_window(nearest - allowed, whole_window);
     const bool on_the_way = now_ != whole_.epoch_length_ && now_ != target_;
-    if (pairs == pair_limit_ || (on_the_way && happened - events_at_run_begin_ >= event_limit_))
+    if (pairs == pair_limit_ || (on_the_way && work_ >= event_limit_))
       next_ = Next::counted;
     else if (now_ == whole_.epoch_length_)
       begin_epoch_next();

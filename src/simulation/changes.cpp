@@ -112,8 +112,9 @@ void Simulation::Parts::go_on(Scene with, State state, CollisionFunction with_ru
   rule = std::move(with_rule);
   engine_name = entry.name;
   engine_reason = std::move(reason);
-  threads_before.add(engine->thread_counts());
+  threads_before = thread_counts();
   engine = std::move(another);
+  alone_from = detail::all_events(engine->counts());
   if (ranks != nullptr && engine->why_not_threads().empty()) share_out();
 }
 

@@ -51,6 +51,7 @@ struct Simulation::Parts {
 
   Threads threads = {};
   ThreadCounts threads_before = {};         ///< what engines before this one took since set_threads()
+  std::uint64_t alone_from = 0;             ///< number of events at which this engine began, or set_threads() was called
   bool recording = false;                   ///< events, for the user
   std::vector<Event> events = {};           ///< recorded and not yet taken, before those that the engine has
   std::vector<Event> last = {};             ///< of next_event(), kept for its memory
@@ -84,6 +85,9 @@ struct Simulation::Parts {
   void share_out();
   /// Returns what keeps it on one core now, in half a sentence; empty where nothing does.
   [[nodiscard]] std::string why_not_threads_now() const;
+  /// Returns how many events this engine has computed alone, since an effect acts that does not run on several cores.
+  [[nodiscard]] std::uint64_t events_alone() const;
+  [[nodiscard]] ThreadCounts thread_counts() const;
   /// Whether it can be shared out after one of the scene's changes.
   [[nodiscard]] bool can_be_shared_out_later() const;
   /// Throws std::invalid_argument where there is a reason against sharing it out.

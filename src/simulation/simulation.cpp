@@ -210,6 +210,7 @@ void Simulation::set_threads(const Threads& threads) {
   if (given.threads > 1 || given.domains > 1) parts_->require_shareable(why_not_threads());
   parts_->threads = given;
   parts_->threads_before = {};
+  parts_->alone_from = detail::all_events(parts_->engine->counts());
   parts_->ranks = nullptr;
   if (parts_->engine->why_not_threads().empty()) parts_->engine->set_threads(given);
 }
@@ -223,14 +224,24 @@ void Simulation::set_threads(const Threads& threads, Ranks& ranks) {
   if (parts_->engine->why_not_threads().empty()) parts_->share_out();
 }
 std::size_t Simulation::threads() const { return parts_->engine->thread_counts().threads; }
-ThreadCounts Simulation::thread_counts() const {
-  ThreadCounts counts = parts_->threads_before;
-  counts.add(parts_->engine->thread_counts());
+ThreadCounts Simulation::thread_counts() const { return parts_->thread_counts(); }
+
+std::uint64_t Simulation::Parts::events_alone() const {
+  const bool on_several = threads.threads > 1 || threads.domains > 1;
+  return on_several && !engine->why_not_threads().empty() ? detail::all_events(engine->counts()) - alone_from : 0;
+}
+
+ThreadCounts Simulation::Parts::thread_counts() const {
+  ThreadCounts counts = threads_before;
+  counts.add(engine->thread_counts());
+  counts.events_alone += events_alone();
   return counts;
 }
 
 void Simulation::reset_clock() {
+  parts_->threads_before.events_alone += parts_->events_alone();
   parts_->engine->reset_clock();
+  parts_->alone_from = 0;
   parts_->standstill.reset();
   parts_->clock_began = true;
 }
