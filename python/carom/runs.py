@@ -252,7 +252,7 @@ def run(
 
     from carom import _files
 
-    with reporting(progress, "run") as tell:
+    with reporting(progress, "run") as report_fraction:
         call = partial(
             _files.run,
             given._core,
@@ -269,11 +269,11 @@ def run(
             bool(report),
             bool(frames),
         )
-        teller = _teller(given, tell)
+        on_progress = _progress_callback(given, report_fraction)
         if out is None:
-            return _result(given, None, _beside(call, teller, bool(own)))
+            return _result(given, None, _call_on_thread(call, on_progress, bool(own)))
         with _sentences():
-            return _result(given, Path(out), _beside(_with_files(call), teller, bool(own)))
+            return _result(given, Path(out), _call_on_thread(_with_files(call), on_progress, bool(own)))
 
 
 def resume(
@@ -304,8 +304,12 @@ def resume(
 
     from carom import _files
 
-    with reporting(progress, "run") as tell:
-        teller = None if tell is None else lambda now, done, equilibrating: tell(0.0 if time is None else min(1.0, now / time))
+    with reporting(progress, "run") as report_fraction:
+        on_progress = (
+            None
+            if report_fraction is None
+            else lambda now, done, equilibrating: report_fraction(0.0 if time is None else min(1.0, now / time))
+        )
         own = _own(observables)
         call = partial(
             _files.resume,
@@ -319,7 +323,7 @@ def resume(
             bool(report),
         )
         with _sentences():
-            parts = _beside(_with_files(call), teller, bool(own))
+            parts = _call_on_thread(_with_files(call), on_progress, bool(own))
         scene = Scene.parse(json.loads(parts[0])["resolved_scene"])
         return _result(scene, Path(directory), parts)
 
@@ -348,23 +352,23 @@ def _sentences() -> Iterator[None]:
 def _with_files(call: Callable[[Any], tuple[Any, ...]]) -> Callable[[Any], tuple[Any, ...]]:
     """Returns the call with HDF5 to itself, on whatever thread it is made: observables may use h5py there too."""
 
-    def guarded(told: Any) -> tuple[Any, ...]:
+    def guarded(on_progress: Any) -> tuple[Any, ...]:
         with hdf5():
-            return call(told)
+            return call(on_progress)
 
     return guarded
 
 
-def _beside(call: Callable[[Any], tuple[Any, ...]], teller: Any, has_own: bool) -> tuple[Any, ...]:
-    """Makes the call. Where observables are written in Python it runs on another thread: Python raises KeyboardInterrupt in the main
-    thread alone, and in the middle of an observable it would lose the collisions at hand."""
+def _call_on_thread(call: Callable[[Any], tuple[Any, ...]], on_progress: Any, has_own: bool) -> tuple[Any, ...]:
+    """Makes the call, on another thread where observables are written in Python. Python raises KeyboardInterrupt in the main thread
+    alone, and in the middle of an observable it would lose the collisions at hand."""
     if not has_own or threading.current_thread() is not threading.main_thread():
-        return call(teller)
+        return call(on_progress)
     stop = threading.Event()
 
-    def told(*progress: Any) -> bool:
-        if teller is not None:
-            teller(*progress)
+    def callback(*progress: Any) -> bool:
+        if on_progress is not None:
+            on_progress(*progress)
         return not stop.is_set()
 
     outcome: list[Any] = []
@@ -372,7 +376,7 @@ def _beside(call: Callable[[Any], tuple[Any, ...]], teller: Any, has_own: bool) 
 
     def work() -> None:
         try:
-            outcome.append(call(told))
+            outcome.append(call(callback))
         except BaseException as error:
             outcome.append(error)
         ended.set()
@@ -404,15 +408,16 @@ def _seconds(walltime: float | str | None) -> float | None:
     return seconds
 
 
-def _teller(scene: Scene, tell: Any) -> Any:
-    if tell is None:
+def _progress_callback(scene: Scene, report_fraction: Any) -> Any:
+    """Returns what the library calls with the time, the collisions and whether it equilibrates; None where nothing is reported."""
+    if report_fraction is None:
         return None
     end, collisions = scene._core.time, scene.to_dict()["run"].get("collisions")
 
-    def told(now: float, done: int, equilibrating: bool) -> None:
-        tell(0.0 if equilibrating else max(now / end if end else 0.0, done / collisions if collisions else 0.0))
+    def on_progress(now: float, done: int, equilibrating: bool) -> None:
+        report_fraction(0.0 if equilibrating else max(now / end if end else 0.0, done / collisions if collisions else 0.0))
 
-    return told
+    return on_progress
 
 
 def _result(scene: Scene, directory: Path | None, parts: tuple[Any, ...]) -> Result:

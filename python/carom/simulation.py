@@ -327,10 +327,10 @@ class Simulation:
         """
         begin, end = self.time, real(time, "time")
         limit = None if collisions is None else whole(collisions, "collisions")
-        with reporting(progress, "run") as report:
-            tell = None if report is None else lambda now: report(_fraction(begin, now, end))
+        with reporting(progress, "run") as report_fraction:
+            report_time = None if report_fraction is None else lambda now: report_fraction(_fraction(begin, now, end))
             self._moved()
-            reason = self._core.run_until(end, limit, tell)
+            reason = self._core.run_until(end, limit, report_time)
         return as_stop(reason, self.time)
 
     def equilibrate(self, *, progress: Progress | None = None) -> Stop:
@@ -409,11 +409,11 @@ class Simulation:
         room = _Room(self, count, bool(positions), bool(velocities), self.radii)
         begin, radii = self.time, self.radii
         reason: str | None = None
-        with reporting(progress, "sample") as report:
-            tell = None if report is None else lambda now: report(_fraction(begin, now, until))
+        with reporting(progress, "sample") as report_fraction:
+            report_time = None if report_fraction is None else lambda now: report_fraction(_fraction(begin, now, until))
             self._moved()
             try:
-                reason = self._core.run_sampled(until, dt, first, stride, _NONE, **vars(room), report=tell)
+                reason = self._core.run_sampled(until, dt, first, stride, _NONE, **vars(room), report=report_time)
             finally:
                 self._trajectory = room.frames(self, radii, interrupted=reason is None)
         as_stop(reason, self.time)

@@ -309,8 +309,8 @@ def compare(
     limit = _arguments.real(longest, "longest")
     spring = None if stiffness is None else _arguments.real(stiffness, "stiffness")
     core = as_scene(scene)._core
-    with _sentences(), reporting(progress, "compare") as tell:
-        parts = _files.compare(core, steps, starts, limit, spring, _arguments.words(engine, "engine"), bool(costs), tell)
+    with _sentences(), reporting(progress, "compare") as report_fraction:
+        parts = _files.compare(core, steps, starts, limit, spring, _arguments.words(engine, "engine"), bool(costs), report_fraction)
     summary: dict[str, Any] = json.loads(parts[0])
     header, *rows = csv.reader(io.StringIO(parts[1]))
     runs = {name: _column([row[k] for row in rows], name) for k, name in enumerate(header)}
@@ -366,8 +366,8 @@ def horizon(
 
     core = as_scene(scene)._core
     count = None if collisions is None else _arguments.whole(collisions, "collisions")
-    with _sentences(), reporting(progress, "horizon") as tell:
-        text, table, sentence = _files.horizon(core, _arguments.words(engine, "engine"), count, tell)
+    with _sentences(), reporting(progress, "horizon") as report_fraction:
+        text, table, sentence = _files.horizon(core, _arguments.words(engine, "engine"), count, report_fraction)
     summary: dict[str, Any] = json.loads(text)
     rows = summary["horizon"]["rows"]
     columns: dict[str, npt.ArrayLike] = {
@@ -406,8 +406,8 @@ def lyapunov_spectrum(scene: SceneLike, *, collisions: int | None = None, progre
 
     core = as_scene(scene)._core
     count = None if collisions is None else _arguments.whole(collisions, "collisions")
-    with _sentences(), reporting(progress, "Lyapunov exponents") as tell:
-        text, lines = _files.lyapunov_spectrum(core, count, tell)
+    with _sentences(), reporting(progress, "Lyapunov exponents") as report_fraction:
+        text, lines = _files.lyapunov_spectrum(core, count, report_fraction)
     summary: dict[str, Any] = json.loads(text)
     found = summary["lyapunov_spectrum"]
     columns: dict[str, npt.ArrayLike] = {"exponent": found["exponents"], "exponent_error": _numbers(found["errors"])}
@@ -444,8 +444,8 @@ def beside(
     spring = None if stiffness is None else _arguments.real(stiffness, "stiffness")
     if spring is not None and method.split(":")[0] != "soft":
         raise ValueError('a stiffness is that of the springs of method="soft"; leave it out, or give both')
-    with _sentences(play="method"), reporting(progress, "beside") as tell:
-        return Page(_files.side_by_side(core, method, spring, engine, tell))
+    with _sentences(play="method"), reporting(progress, "beside") as report_fraction:
+        return Page(_files.side_by_side(core, method, spring, engine, report_fraction))
 
 
 def validate(
@@ -475,9 +475,9 @@ def validate(
 
     names = _arguments.list_of_words(only, "only")
     number = _arguments.whole(seed, "seed")
-    side_by_side = None if threads is None else _arguments.whole(threads, "threads", least=1, most=4096)
-    with _sentences(), reporting(progress, "validate") as tell:
-        text, verdicts, sentence, page, complete = _files.validate(bool(full), names, number, side_by_side, tell)
+    at_a_time = None if threads is None else _arguments.whole(threads, "threads", least=1, most=4096)
+    with _sentences(), reporting(progress, "validate") as report_fraction:
+        text, verdicts, sentence, page, complete = _files.validate(bool(full), names, number, at_a_time, report_fraction)
     summary: dict[str, Any] = json.loads(text)
     checks = [{"trial": trial["trial"], **check} for trial in summary["trials"] for check in trial["checks"]]
     columns: dict[str, npt.ArrayLike] = {name: _words(check[name] for check in checks) for name in ("trial", "name")}
@@ -525,8 +525,8 @@ def hardcases(
     from carom import _files
 
     chosen = _arguments.list_of_words([names] if isinstance(names, PathLike) else names or [], "names")
-    with _sentences(), reporting(progress, "hardcases") as tell:
-        rows, sentence = _files.hard_cases(chosen, _arguments.words(engine, "engine"), tell)
+    with _sentences(), reporting(progress, "hardcases") as report_fraction:
+        rows, sentence = _files.hard_cases(chosen, _arguments.words(engine, "engine"), report_fraction)
     columns: dict[str, npt.ArrayLike] = {
         name: _words(row[k] for row in rows) for k, name in enumerate(("case", "family", "statement", "engines"))
     }

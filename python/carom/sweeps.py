@@ -194,7 +194,7 @@ def sweep(
     found: dict[tuple[int, int], _Found] = {}
     in_tables = [name for name in numbers or () if "@" in name]
     orders = [replace(order, in_tables=tuple(in_tables)) for order in orders]
-    with _kept(out, base, full, settings, orders) as kept, reporting(progress, "sweep") as tell:
+    with _kept(out, base, full, settings, orders) as kept, reporting(progress, "sweep") as report_fraction:
         for order in orders:
             earlier = None if kept is None else kept.find(order.name(full))
             # One that was kept without a number that is now asked for runs again.
@@ -206,8 +206,8 @@ def sweep(
                 found[order.at, order.seed] = outcome
                 if kept is not None and outcome["state"] == "finished":
                     kept.add(order.name(full), outcome)
-                if tell is not None:
-                    tell(len(found) / len(orders))
+                if report_fraction is not None:
+                    report_fraction(len(found) / len(orders))
 
         to_do = [order for order in orders if (order.at, order.seed) not in found]
         interrupted = False
