@@ -16,9 +16,10 @@ from carom import _core
 from carom._arguments import numbers, pairs, path_text, real, shown, whole, words
 from carom._errors import OutputError, SceneError, StoppedEarly
 from carom._events import Event, events_in
+from carom._frame_memory import FrameMemory
 from carom._progress import Progress, reporting
 from carom._toml import scene_text
-from carom.frames import Frames, State, state_of_frame
+from carom.frames import Frames, State
 from carom.scene import Scene, SceneLike, as_scene, scene_of_parts
 
 if TYPE_CHECKING:
@@ -406,16 +407,16 @@ class Simulation:
         """
         dt, until, stride = real(dt, "dt"), real(until, "until"), whole(stride, "stride", least=1)
         first, count = self._sample_range(dt, until, stride)
-        room = _Room(self, count, bool(positions), bool(velocities), self.radii)
+        memory = FrameMemory(self, count, bool(positions), bool(velocities), self.radii)
         begin, radii = self.time, self.radii
         reason: str | None = None
         with reporting(progress, "sample") as report_fraction:
             report_time = None if report_fraction is None else lambda now: report_fraction(_fraction(begin, now, until))
             self._moved()
             try:
-                reason = self._core.run_sampled(until, dt, first, stride, _NONE, **vars(room), report=report_time)
+                reason = self._core.run_sampled(until, dt, first, stride, _NONE, **vars(memory), report=report_time)
             finally:
-                self._trajectory = room.frames(self, radii, interrupted=reason is None)
+                self._trajectory = memory.frames(self, radii, interrupted=reason is None)
         as_stop(reason, self.time)
         return self._trajectory
 
@@ -423,15 +424,15 @@ class Simulation:
         """Iterates over the states that `sample()` returns, in constant memory."""
         dt, until, stride = real(dt, "dt"), real(until, "until"), whole(stride, "stride", least=1)
         first, count = self._sample_range(dt, until, stride)
-        room = _Room(self, 1, True, True)
+        memory = FrameMemory(self, 1, True, True)
         for k in range(first, first + count * stride, stride):
-            room.written[0] = 0
+            memory.written[0] = 0
             self._moved()
-            reason = self._core.run_sampled(until, dt, k, stride, 1, **vars(room), report=None)
-            if not room.written[0]:
+            reason = self._core.run_sampled(until, dt, k, stride, 1, **vars(memory), report=None)
+            if not memory.written[0]:
                 as_stop(reason, self.time)
                 return
-            yield room.state()
+            yield memory.state()
             as_stop(reason, self.time)
             if Stop(reason).early:
                 return
@@ -629,77 +630,6 @@ def _begun(made: Scene, saved: bytes, rule: CollisionRule | None) -> Simulation:
 
 def _fraction(begin: float, now: float, end: float) -> float:
     return 1.0 if end <= begin else min(1.0, (now - begin) / (end - begin))
-
-
-class _Room:
-    """Memory for frames, into which the engine writes: the arrays that `run_sampled` takes by name. Scales are those of `radii`, or of
-    the radii at each frame."""
-
-    def __init__(self, simulation: Simulation, count: int, positions: bool, velocities: bool, radii: Floats | None = None) -> None:
-        disks = simulation.count
-        periodic = any(simulation.scene.periodic)
-        may_become_rough = "roughness" in str(simulation.scene.to_dict().get("changes", ""))
-        spins = disks if len(simulation.spins) or may_become_rough else 0
-        per_frame = 16 * disks * (positions + velocities + (positions and periodic)) + 8 * spins + 104
-        memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-        if count * per_frame > memory:
-            raise MemoryError(
-                f"{count:,} frames of {disks:,} disks take {count * per_frame / 1e9:.2g} GB; iterate over sim.frames(dt, until), or "
-                "give a stride"
-            )
-        self.time, self.scale, self.shear_displacement, self.virial = (np.empty(count) for _ in range(4))
-        self.walls = np.empty((count, 4, 2))
-        self.collisions = np.empty(count, np.uint64)
-        self.positions = np.empty((count, disks, 2)) if positions else None
-        self.velocities = np.empty((count, disks, 2)) if velocities else None
-        self.images = np.empty((count, disks, 2), np.int64) if positions and periodic else None
-        self.spins = np.empty((count, spins)) if spins else None
-        self.written = np.zeros(1, np.int64)
-        self.first_radius = None if radii is None or not len(radii) else float(radii[0])
-
-    def state(self) -> State:
-        """Returns the first frame, which has memory of its own."""
-
-        def row(array: Any) -> Any:
-            return None if array is None else array[0]
-
-        return state_of_frame(
-            row(self.positions),
-            row(self.velocities),
-            row(self.images),
-            row(self.spins),
-            self.time[0],
-            self.scale[0],
-            self.walls[0],
-            self.shear_displacement[0],
-        )
-
-    def frames(self, simulation: Simulation, radii: Floats, interrupted: bool) -> Frames:
-        count = int(self.written[0])
-
-        def done(array: Any) -> Any:
-            if array is None:
-                return None
-            array.flags.writeable = False
-            return array[:count]
-
-        return Frames(
-            time=done(self.time),
-            positions=done(self.positions),
-            velocities=done(self.velocities),
-            images=done(self.images),
-            spins=done(self.spins),
-            walls=done(self.walls),
-            scale=done(self.scale),
-            shear_displacement=done(self.shear_displacement),
-            collisions=done(self.collisions),
-            virial=done(self.virial),
-            radii=radii,
-            species=simulation.species,
-            scene=simulation.scene,
-            state_hash=simulation.state_hash,
-            interrupted=interrupted,
-        )
 
 
 def engines() -> list[str]:
