@@ -255,27 +255,28 @@ class _Stop(Exception):
     """The sweep has been stopped."""
 
 
-class _Going:
-    """Tells workers, be they threads or other processes, whether the sweep goes on: while a file is there. Those on other machines,
-    which cannot see it, complete what they have begun."""
+class _StopFlag:
+    """Tells workers, threads or other processes, to stop once a file is no longer there. Workers on other machines, which cannot see
+    the file, complete what they have begun."""
 
     def __init__(self, path: str) -> None:
         self.path, self.host = path, os.uname().nodename
 
-    def look(self, fraction: float = 0.0) -> None:
+    def check(self, fraction: float = 0.0) -> None:
+        """Raises _Stop where the sweep has been stopped. It takes the fraction done, as a progress callback of `run()` does."""
         if os.uname().nodename == self.host and not os.path.exists(self.path):
             raise _Stop
 
 
-def _carry_out(order: _Order, going: _Going) -> _Found | None:
+def _carry_out(order: _Order, stop_flag: _StopFlag) -> _Found | None:
     """Does one run in a worker. None where it was stopped."""
     import json
 
     from carom import _files
 
     try:
-        going.look()
-        result = run(order.scene, seed=order.seed, threads=1, progress=going.look, **copy.deepcopy(order.settings))
+        stop_flag.check()
+        result = run(order.scene, seed=order.seed, threads=1, progress=stop_flag.check, **copy.deepcopy(order.settings))
     except (KeyboardInterrupt, _Stop):
         return None
     except (ValueError, RuntimeError, MemoryError) as error:
@@ -322,10 +323,10 @@ def _run_all(executor: Executor, orders: Sequence[_Order], keep: Callable[[_Orde
     ended: queue.SimpleQueue[Future[_Found | None]] = queue.SimpleQueue()
     futures: dict[Future[_Found | None], _Order] = {}
     with tempfile.NamedTemporaryFile(prefix="carom-sweep-") as file:
-        going = _Going(file.name)
+        stop_flag = _StopFlag(file.name)
         try:
             for order in orders:
-                future = executor.submit(_carry_out, order, going)
+                future = executor.submit(_carry_out, order, stop_flag)
                 futures[future] = order
                 future.add_done_callback(ended.put)
             while futures:
