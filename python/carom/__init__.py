@@ -23,8 +23,9 @@ if _TYPE_CHECKING:
     from carom.observables import COLLISION, Blocking, Observable
     from carom.pages import Page, Player
     from carom.results import Measurement, Number, Table
-    from carom.runs import Result, Run, open_run, resume, run
+    from carom.runs import Result, resume, run
     from carom.starts import Start, read_start
+    from carom.stored_runs import Run, open_run
     from carom.studies import (
         Comparison,
         Difference,
@@ -49,8 +50,9 @@ _LATER = {
     "observables": ("COLLISION", "Blocking", "Observable"),
     "pages": ("Page", "Player"),
     "results": ("Measurement", "Number", "Table"),
-    "runs": ("Result", "Run", "open_run", "resume", "run"),
+    "runs": ("Result", "resume", "run"),
     "starts": ("Start", "read_start"),
+    "stored_runs": ("Run", "open_run"),
     "studies": (
         "Comparison",
         "Difference",

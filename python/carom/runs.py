@@ -1,4 +1,4 @@
-"""A scene's whole schedule: equilibrate, measure, write files; and finished runs, read back."""
+"""A scene's whole schedule: equilibrate, measure, write files."""
 
 from __future__ import annotations
 
@@ -10,33 +10,32 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import partial
-from os import PathLike, fspath
+from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
 from carom import _core
-from carom._arguments import list_of_words, path_text, real, shown, whole, words
+from carom._arguments import path_text, real, shown, whole, words
 from carom._errors import Interrupted, OutputError
-from carom._events import events_in
 from carom._hdf5 import hdf5
 from carom._measured import measurements_of
 from carom._progress import Progress, reporting
-from carom._toml import value_text
 from carom.frames import Frames, State
 from carom.observables import Observable
 from carom.results import Measurement, Number
 from carom.scene import Scene, SceneLike, as_scene
 from carom.simulation import Stop, as_stop
 
+# Programs and pickles of earlier versions look for these names here.
+from carom.stored_runs import Run as Run, StoredArray as StoredArray, StoredFrames as StoredFrames, open_run as open_run
+
 if TYPE_CHECKING:
     from pathlib import Path
 
     import pandas
 
-    from carom import _files
-    from carom.pages import Page, Player
+    from carom.pages import Page
 
 #: Observables of a run: names of the scene format with their settings, {"pressure": True}; objects of one's own; or both in a list.
 Observables = Mapping[str, Any] | Iterable[str | Observable]
@@ -461,208 +460,3 @@ def _result(scene: Scene, directory: Path | None, parts: tuple[Any, ...]) -> Res
     if interrupted:
         raise Interrupted(result)
     return result
-
-
-class Run:
-    """A finished run in a directory, as `carom run` or `carom.run(out=...)` have written it. `carom.open_run()` makes it."""
-
-    def __init__(self, directory: str | PathLike[str]) -> None:
-        import json
-        from pathlib import Path
-
-        self.directory = Path(path_text(directory, "directory"))
-        file = self.directory / "summary.json"
-        try:
-            self.summary: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
-        except FileNotFoundError:
-            raise OutputError(
-                f"{self.directory}: this is no directory of a finished run (no summary.json); name one that carom run has written"
-            ) from None
-        except OSError as error:
-            raise OutputError(f"{file}: cannot read this file: {error.strerror}") from None
-        except ValueError:
-            raise OutputError(f"{file}: this is not the summary of a run; copy it anew or run again") from None
-        self._reader: _files.RunReader | None = None
-
-    def _open(self) -> _files.RunReader:
-        from carom import _files
-
-        if self._reader is None:
-            with hdf5():
-                self._reader = _files.RunReader(fspath(self.directory))
-        return self._reader
-
-    @property
-    def scene(self) -> Scene:
-        """The scene that ran, with every default."""
-        return Scene.parse(self.summary["resolved_scene"])
-
-    @property
-    def state_hash(self) -> str:
-        """16 hexadecimal digits of the final state."""
-        return str(self.summary["state_hash"])
-
-    @property
-    def frames(self) -> StoredFrames:
-        """The samples in trajectory.h5md, which are read when they are asked for. Needs h5py (pip install carom[files])."""
-        return StoredFrames(self.directory / "trajectory.h5md", self.scene)
-
-    def state(self, k: int = -1) -> State:
-        """Returns sample k to the last bit, the last one by default: another simulation can begin with it."""
-        with hdf5():
-            reader = self._open()
-            if reader.samples == 0:
-                raise ValueError(f"{self.directory}: this run kept no samples; run it with run.sample_every and its trajectory")
-            at = whole(k, "k", least=-reader.samples, most=reader.samples - 1)
-            return State._of(reader.sample(at % reader.samples))
-
-    @property
-    def events(self) -> npt.NDArray[Any]:
-        """All collisions, a structured array as `Simulation.record()` returns it. Raises ValueError where none were written."""
-        reader = self._open()
-        if not reader.has_event_log:
-            raise ValueError(f"{self.directory}: this run has written no collisions; run with events=True")
-        with hdf5():
-            return events_in(reader.event_log())
-
-    @property
-    def observables(self) -> dict[str, Measurement]:
-        """What the run has measured, as its files have it."""
-        from carom import _files
-
-        with hdf5():
-            return measurements_of(_files.observables_in(fspath(self.directory)))
-
-    def analyze(self, observables: Mapping[str, Any] | Iterable[str] | None = None) -> dict[str, Measurement]:
-        """Measures observables of the scene format in the samples and collisions that the run has kept; None: those of its own scene.
-
-        Where samples are taken at the same times, the numbers are those of the run to the last bit.
-
-        Raises ValueError where the run has not kept what one of them needs.
-        """
-        from carom import _files
-
-        wanted = []
-        if observables is not None:
-            names = list_of_words(observables, "observables")
-            settings = observables if isinstance(observables, Mapping) else dict.fromkeys(names, True)
-            wanted = [name if value is True else f"{name}={value_text(value, name)}" for name, value in settings.items()]
-        with hdf5():
-            return measurements_of(_files.analyse(fspath(self.directory), wanted))
-
-    def verify(self) -> list[str]:
-        """Runs the scene again. Returns one sentence for each difference from what is in the directory: none, if all is the same.
-
-        Observables of one's own are left out: the scene does not ask for them."""
-        import tempfile
-        from pathlib import Path
-
-        from carom import _files
-
-        dt = self.summary.get("dt")
-        if self.summary["stopped"] == "interrupted":
-            raise ValueError(f"{self.directory}: this run was interrupted, and another one would not end there")
-        name = self.summary.get("engine_asked", self.summary["engine"])
-        with tempfile.TemporaryDirectory(prefix="carom-") as place, warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            again = Path(place) / "again"
-            if dt is None:
-                run(self.scene, out=again, engine=name)
-            else:
-                run(self.scene, out=again, method=name, dt=dt, stiffness=self.summary.get("stiffness"))
-            with hdf5():
-                return _files.compare_results(fspath(self.directory), fspath(again))
-
-    def play(self) -> Player:
-        """Returns the run as a player: exact, where its collisions were written."""
-        from carom.player import player_of
-
-        with hdf5():
-            return player_of(self.directory)
-
-    def report(self) -> Page:
-        """Returns the page of the run, as `carom report` makes it."""
-        from carom.player import report_of
-
-        with hdf5():
-            return report_of(self.directory)
-
-    def __repr__(self) -> str:
-        return f"<carom.Run in {self.directory}: {self.summary['disks']} disks until time {self.summary['time']:g}>"
-
-
-class StoredFrames:
-    """The samples of a run in its file. Arrays behave as h5py's: `frames.positions[::100]` reads every hundredth frame.
-
-    Attributes:
-        scene: the scene that ran.
-    """
-
-    def __init__(self, path: Path, scene: Scene) -> None:
-        self.scene = scene
-        self._path = path
-        if not path.exists():
-            raise OutputError(f"{path}: there is no such file: this run kept no trajectory")
-
-    @property
-    def time(self) -> npt.NDArray[np.float64]:
-        """Times, shape (F,)."""
-        return self._dataset("time")[:]
-
-    @property
-    def positions(self) -> StoredArray:
-        """Positions, shape (F, N, 2)."""
-        return self._dataset("position")
-
-    @property
-    def velocities(self) -> StoredArray:
-        """Velocities, shape (F, N, 2)."""
-        return self._dataset("velocity")
-
-    def __len__(self) -> int:
-        return self.positions.shape[0]
-
-    def __repr__(self) -> str:
-        return f"<carom.StoredFrames in {self._path}>"
-
-    def _dataset(self, name: str) -> StoredArray:
-        return StoredArray(self._path, name)
-
-
-class StoredArray:
-    """One array of a trajectory file, read piece by piece; the file is open only meanwhile."""
-
-    def __init__(self, path: Path, name: str) -> None:
-        self._path, self._name = path, name
-        self.shape: tuple[int, ...] = self._read(lambda dataset: (*dataset.shape[:2], min(2, dataset.shape[-1])) if dataset.ndim == 3 else dataset.shape)
-
-    def _read(self, action: Any) -> Any:
-        import h5py
-
-        with hdf5(), h5py.File(self._path, "r") as file:
-            group = file["particles"]
-            particles = group[next(iter(group))]
-            dataset = particles["position/time"] if self._name == "time" else particles[f"{self._name}/value"]
-            return action(dataset)
-
-    def __getitem__(self, index: Any) -> npt.NDArray[np.float64]:
-        array = self._read(lambda dataset: dataset[index])
-        whole = np.asarray(array)
-        # H5MD has three coordinates; a box has two.
-        return whole if self._name == "time" or len(self.shape) < 3 else np.ascontiguousarray(whole[..., :2])
-
-    def __len__(self) -> int:
-        return self.shape[0]
-
-    def __array__(self, dtype: Any = None, copy: bool | None = None) -> npt.NDArray[np.float64]:
-        return np.asarray(self[:], dtype=dtype)
-
-
-def open_run(directory: str | PathLike[str]) -> Run:
-    """Opens a finished run: its summary now, its trajectory when it is asked for.
-
-    Raises OutputError where `directory` is none that `carom run` has finished writing.
-    """
-    return Run(directory)
-
-

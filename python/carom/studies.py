@@ -27,7 +27,8 @@ from carom.scene import SceneLike, as_scene
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from carom.runs import Result, Run
+    from carom.runs import Result
+    from carom.stored_runs import Run
 
     RunLike: TypeAlias = str | PathLike[str] | Run | Result
 

@@ -364,10 +364,16 @@ def test_every_public_name_is_there_when_it_is_asked_for():
         carom.sweeep  # noqa: B018
 
 
+def test_names_stay_where_pickles_of_earlier_versions_look_for_them():
+    for module, names in {"runs": ("Run", "open_run")}.items():
+        for name in names:
+            assert pickle.loads(f"ccarom.{module}\n{name}\n.".encode()) is getattr(carom, name)
+
+
 def test_import_starts_nothing():
     code = (
         "import sys, threading; import carom; "
-        "print([m for m in ('h5py', 'matplotlib', 'pandas', 'xarray', 'tqdm', 'carom._files', 'carom.runs', 'carom.sweeps') if m in sys.modules], threading.active_count())"
+        "print([m for m in ('h5py', 'matplotlib', 'pandas', 'xarray', 'tqdm', 'carom._files', 'carom.runs', 'carom.stored_runs', 'carom.sweeps') if m in sys.modules], threading.active_count())"
     )
     shown = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
     assert shown.strip() == "[] 1"
