@@ -160,7 +160,7 @@ def python_names():
         value = getattr(package, name)
         module = getattr(value, "__module__", "")
         home = {"carom.runs": "Runs", "carom.stored_runs": "Runs", "carom.sweeps": "Runs", "carom.results": "Runs", "carom.observables": "Runs",
-                "carom.studies": "Studies"}
+                "carom.horizons": "Studies", "carom.studies": "Studies"}
         if not any(name in names for names in groups.values()):
             groups[home.get(module, "Everything else")].append(name)
     text = ""

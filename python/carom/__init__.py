@@ -20,6 +20,7 @@ from carom.scene import Check, Scene, build, presets
 from carom.simulation import CollidingPair, Simulation, Stop, engines, fixed_step_methods
 
 if _TYPE_CHECKING:
+    from carom.horizons import Horizon, LyapunovSpectrum, horizon, lyapunov_spectrum
     from carom.observables import COLLISION, Blocking, Observable
     from carom.pages import Page, Player
     from carom.results import Measurement, Number, Table
@@ -29,16 +30,12 @@ if _TYPE_CHECKING:
     from carom.studies import (
         Comparison,
         Difference,
-        Horizon,
-        LyapunovSpectrum,
         Validation,
         beside,
         compare,
         diff,
         hard_case_names,
         hardcases,
-        horizon,
-        lyapunov_spectrum,
         validate,
         validation_trials,
     )
@@ -47,6 +44,7 @@ if _TYPE_CHECKING:
 
 #: Names by the module that is imported where one of them is first asked for: a simulation needs none of these.
 _LATER = {
+    "horizons": ("Horizon", "LyapunovSpectrum", "horizon", "lyapunov_spectrum"),
     "observables": ("COLLISION", "Blocking", "Observable"),
     "pages": ("Page", "Player"),
     "results": ("Measurement", "Number", "Table"),
@@ -56,16 +54,12 @@ _LATER = {
     "studies": (
         "Comparison",
         "Difference",
-        "Horizon",
-        "LyapunovSpectrum",
         "Validation",
         "beside",
         "compare",
         "diff",
         "hard_case_names",
         "hardcases",
-        "horizon",
-        "lyapunov_spectrum",
         "validate",
         "validation_trials",
     ),

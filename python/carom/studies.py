@@ -1,14 +1,11 @@
-"""What accuracy costs, how far a trajectory can be trusted, and whether the engine holds against theory and hard cases.
+"""What accuracy costs, where two runs part, and whether the engine holds against theory and hard cases.
 
-The studies are the program's, `carom compare`, `diff`, `horizon`, `validate` and `hardcases`, with the same numbers and sentences.
+The studies are the program's, `carom compare`, `diff`, `validate` and `hardcases`, with the same numbers and sentences.
 """
 
 from __future__ import annotations
 
-import math
-import re
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from os import PathLike
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -17,11 +14,16 @@ import numpy as np
 import numpy.typing as npt
 
 from carom import _arguments
-from carom._errors import Interrupted, SceneError
+from carom._errors import Interrupted
 from carom._hdf5 import hdf5
 from carom._progress import Progress, reporting
+from carom._study_tools import column_of_numbers, column_of_words, naming_arguments, paragraphs
+
+# Programs and pickles of earlier versions look for these names here.
+from carom.horizons import Horizon as Horizon, LyapunovSpectrum as LyapunovSpectrum
+from carom.horizons import horizon as horizon, lyapunov_spectrum as lyapunov_spectrum
 from carom.pages import Page
-from carom.results import Number, Table
+from carom.results import Table
 from carom.scene import SceneLike, as_scene
 
 if TYPE_CHECKING:
@@ -103,7 +105,7 @@ class Comparison:
         return self._text.rstrip("\n")
 
     def _repr_html_(self) -> str:
-        return _paragraphs(self.sentences) + self.prices._repr_html_()
+        return paragraphs(self.sentences) + self.prices._repr_html_()
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,98 +139,7 @@ class Difference:
         return self._text.rstrip("\n")
 
     def _repr_html_(self) -> str:
-        return _paragraphs([self.sentence]) + self.distances._repr_html_()
-
-
-@dataclass(frozen=True, eq=False)
-class Horizon:
-    """How far a trajectory can be trusted: the same start in 24, 53, 64 and 113 bits, each held against the next better one.
-
-    Attributes:
-        summary: everything in numbers, as `carom horizon --json` prints it.
-        sentence: until when the trajectory is right, in one sentence.
-        rows: a row for each precision. `time` is the time until which positions are right, nan where they are to the end or that is
-            not known; `estimated` says whether it is extrapolated. `first_difference` is the number of the first collision that
-            differs, counted from 1, nan where none does; `price` is processor time over that of double precision.
-        lyapunov: the largest Lyapunov exponent, 1 / time; None where pairs of disks collide too rarely.
-    """
-
-    summary: dict[str, Any] = field(repr=False)
-    sentence: str
-    rows: Table = field(repr=False)
-    lyapunov: Number | None
-    _text: str = field(repr=False)
-
-    def plot(self, ax: Axes | None = None) -> Axes:
-        """Draws the time until which each precision is right over its bits. Needs matplotlib.
-
-        Args:
-            ax: where to draw; None: a figure of its own.
-        """
-        import matplotlib.pyplot as plt
-
-        axes = plt.subplots()[1] if ax is None else ax
-        for estimated, label in ((False, "measured"), (True, "extrapolated")):
-            chosen = self.rows["estimated"] == estimated
-            face = "none" if estimated else None
-            axes.plot(self.rows["bits"][chosen], self.rows["time"][chosen], "o", markerfacecolor=face, label=label)
-        for bits, time, engine in zip(self.rows["bits"], self.rows["time"], self.rows["engine"], strict=True):
-            if not math.isnan(time):
-                axes.annotate(f" {engine}", (bits, time), fontsize="small", verticalalignment="bottom")
-        axes.set_xlabel("bits of the significand")
-        axes.set_ylabel(f"right until (time), every disk within {self.summary['horizon']['tolerance']:g} diameters")
-        axes.legend()
-        return axes
-
-    def __str__(self) -> str:
-        return self._text + "\n" + self.sentence
-
-    def _repr_html_(self) -> str:
-        return _paragraphs([self.sentence]) + self.rows._repr_html_()
-
-
-@dataclass(frozen=True, eq=False)
-class LyapunovSpectrum:
-    """All Lyapunov exponents of a scene, and the rate at which its trajectories lose the memory of their start.
-
-    Attributes:
-        summary: everything in numbers, as `carom horizon --spectrum --json` prints it.
-        exponents: a row for each of the 4 N exponents of N disks, the largest first: `exponent` and its standard error, 1 / time; the
-            error is nan where the run is too short.
-        entropy: the Kolmogorov-Sinai entropy, the sum of the positive exponents, 1 / time.
-        pairing: the largest sum of an exponent and its partner, the first and the last, the second and the last but one, and so on,
-            1 / time; 0 to rounding where the dynamics is Hamiltonian.
-        collision_rate: collisions of one disk per time, the natural unit of the exponents.
-    """
-
-    summary: dict[str, Any] = field(repr=False)
-    exponents: Table = field(repr=False)
-    entropy: Number
-    pairing: float
-    collision_rate: float
-    _text: str = field(repr=False)
-
-    def plot(self, ax: Axes | None = None) -> Axes:
-        """Draws the exponents over their numbers. Needs matplotlib.
-
-        Args:
-            ax: where to draw; None: a figure of its own.
-        """
-        import matplotlib.pyplot as plt
-
-        axes = plt.subplots()[1] if ax is None else ax
-        values, errors = self.exponents["exponent"], np.nan_to_num(self.exponents["exponent_error"])
-        axes.errorbar(np.arange(1, len(values) + 1), values, errors, fmt=".")
-        axes.axhline(0.0, color="gray", linewidth=0.5)
-        axes.set_xlabel("number of the exponent")
-        axes.set_ylabel("Lyapunov exponent (1 / time)")
-        return axes
-
-    def __str__(self) -> str:
-        return self._text.rstrip("\n")
-
-    def _repr_html_(self) -> str:
-        return self.exponents._repr_html_()
+        return paragraphs([self.sentence]) + self.distances._repr_html_()
 
 
 @dataclass(frozen=True, eq=False)
@@ -267,7 +178,7 @@ class Validation:
         return f"{self.checks}\n\n{self.sentence}"
 
     def _repr_html_(self) -> str:
-        return _paragraphs([self.sentence]) + self.checks._repr_html_()
+        return paragraphs([self.sentence]) + self.checks._repr_html_()
 
 
 def compare(
@@ -310,7 +221,7 @@ def compare(
     limit = _arguments.real(longest, "longest")
     spring = None if stiffness is None else _arguments.real(stiffness, "stiffness")
     core = as_scene(scene)._core
-    with _sentences(), reporting(progress, "compare") as report_fraction:
+    with naming_arguments(), reporting(progress, "compare") as report_fraction:
         parts = _files.compare(core, steps, starts, limit, spring, _arguments.words(engine, "engine"), bool(costs), report_fraction)
     summary: dict[str, Any] = json.loads(parts[0])
     header, *rows = csv.reader(io.StringIO(parts[1]))
@@ -347,77 +258,6 @@ def _path_of(run: RunLike) -> str:
     return _arguments.path_text(directory, "a run")
 
 
-def horizon(
-    scene: SceneLike, *, engine: str = "auto", collisions: int | None = None, progress: Progress | None = None
-) -> Horizon:
-    """Measures how far a scene's trajectory can be trusted.
-
-    Args:
-        scene: a Scene, the path of a scene file, or a mapping.
-        engine: the one that is to run the scene, whose precision the sentence is about: "auto", or one of `carom.engines()`.
-        collisions: pair collisions over which the Lyapunov exponent is measured; None: half a million, or 100 per disk.
-        progress: True for a bar (needs tqdm), or a function of the fraction done.
-
-    Raises:
-        SceneError: where the scene is wrong; ValueError: where an argument is, or something acts that the study does not know.
-    """
-    import json
-
-    from carom import _files
-
-    core = as_scene(scene)._core
-    count = None if collisions is None else _arguments.whole(collisions, "collisions")
-    with _sentences(), reporting(progress, "horizon") as report_fraction:
-        text, table, sentence = _files.horizon(core, _arguments.words(engine, "engine"), count, report_fraction)
-    summary: dict[str, Any] = json.loads(text)
-    rows = summary["horizon"]["rows"]
-    columns: dict[str, npt.ArrayLike] = {
-        "engine": _words(row["engine"] for row in rows),
-        "bits": [row["bits"] for row in rows],
-        "against": _words(row["against"] or "" for row in rows),
-        "time": _numbers(row["time"] for row in rows),
-        "collisions_per_disk": _numbers(row["collisions_per_disk"] for row in rows),
-        "estimated": [row["estimated"] for row in rows],
-        "first_difference": _numbers(row["first_difference"] and row["first_difference"]["index"] + 1 for row in rows),
-        "first_difference_time": _numbers(row["first_difference"] and row["first_difference"]["time"] for row in rows),
-        "seconds": _numbers(row["seconds"] for row in rows),
-        "price": _numbers(row["price"] for row in rows),
-    }
-    units = {"time": "time", "first_difference_time": "time", "seconds": "s"}
-    exponent = summary["horizon"]["lyapunov"]
-    lyapunov = exponent and Number(exponent["per_time"], exponent["per_time_error"], "1 / time")
-    return Horizon(summary, sentence, Table(columns, units, "Horizons"), lyapunov, table)
-
-
-def lyapunov_spectrum(scene: SceneLike, *, collisions: int | None = None, progress: Progress | None = None) -> LyapunovSpectrum:
-    """Measures all Lyapunov exponents of a scene with up to 256 disks, by Benettin's method.
-
-    Args:
-        scene: a Scene, the path of a scene file, or a mapping.
-        collisions: pair collisions over which they are measured; None: 20,000.
-        progress: True for a bar (needs tqdm), or a function of the fraction done.
-
-    Raises:
-        SceneError: where the scene is wrong; ValueError: where an argument is, there are too many disks or fewer than two, or
-        something acts that the study does not know; RuntimeError: where pairs collide too rarely, or collisions lose energy.
-    """
-    import json
-
-    from carom import _files
-
-    core = as_scene(scene)._core
-    count = None if collisions is None else _arguments.whole(collisions, "collisions")
-    with _sentences(), reporting(progress, "Lyapunov exponents") as report_fraction:
-        text, lines = _files.lyapunov_spectrum(core, count, report_fraction)
-    summary: dict[str, Any] = json.loads(text)
-    found = summary["lyapunov_spectrum"]
-    columns: dict[str, npt.ArrayLike] = {"exponent": found["exponents"], "exponent_error": _numbers(found["errors"])}
-    units = {"exponent": "1 / time", "exponent_error": "1 / time"}
-    entropy = Number(found["entropy"], found["entropy_error"], "1 / time")
-    table = Table(columns, units, "Lyapunov exponents")
-    return LyapunovSpectrum(summary, table, entropy, found["pairing"], found["collision_rate"], lines)
-
-
 def beside(
     scene: SceneLike,
     method: str = "guarded",
@@ -445,7 +285,7 @@ def beside(
     spring = None if stiffness is None else _arguments.real(stiffness, "stiffness")
     if spring is not None and method.split(":")[0] != "soft":
         raise ValueError('a stiffness is that of the springs of method="soft"; leave it out, or give both')
-    with _sentences(play="method"), reporting(progress, "beside") as report_fraction:
+    with naming_arguments(play="method"), reporting(progress, "beside") as report_fraction:
         return Page(_files.side_by_side(core, method, spring, engine, report_fraction))
 
 
@@ -477,16 +317,16 @@ def validate(
     names = _arguments.list_of_words(only, "only")
     number = _arguments.whole(seed, "seed")
     at_a_time = None if threads is None else _arguments.whole(threads, "threads", least=1, most=4096)
-    with _sentences(), reporting(progress, "validate") as report_fraction:
+    with naming_arguments(), reporting(progress, "validate") as report_fraction:
         text, verdicts, sentence, page, complete = _files.validate(bool(full), names, number, at_a_time, report_fraction)
     summary: dict[str, Any] = json.loads(text)
     checks = [{"trial": trial["trial"], **check} for trial in summary["trials"] for check in trial["checks"]]
-    columns: dict[str, npt.ArrayLike] = {name: _words(check[name] for check in checks) for name in ("trial", "name")}
-    columns |= {name: _numbers(check[name] for check in checks) for name in ("expected", "measured", "error", "z")}
-    columns["verdict"] = _words(verdicts)
+    columns: dict[str, npt.ArrayLike] = {name: column_of_words(check[name] for check in checks) for name in ("trial", "name")}
+    columns |= {name: column_of_numbers(check[name] for check in checks) for name in ("expected", "measured", "error", "z")}
+    columns["verdict"] = column_of_words(verdicts)
     columns["holds"] = np.array([check["holds"] for check in checks], dtype=bool)
-    columns["allowance"] = _numbers(check["allowance"] for check in checks)
-    columns |= {name: _words(check[name] for check in checks) for name in ("theory", "source")}
+    columns["allowance"] = column_of_numbers(check["allowance"] for check in checks)
+    columns |= {name: column_of_words(check[name] for check in checks) for name in ("theory", "source")}
     validation = Validation(summary, Table(columns, title="Checks"), sentence, complete, page)
     if not complete:
         raise Interrupted(validation)
@@ -526,13 +366,13 @@ def hardcases(
     from carom import _files
 
     chosen = _arguments.list_of_words([names] if isinstance(names, PathLike) else names or [], "names")
-    with _sentences(), reporting(progress, "hardcases") as report_fraction:
+    with naming_arguments(), reporting(progress, "hardcases") as report_fraction:
         rows, sentence = _files.hard_cases(chosen, _arguments.words(engine, "engine"), report_fraction)
     columns: dict[str, npt.ArrayLike] = {
-        name: _words(row[k] for row in rows) for k, name in enumerate(("case", "family", "statement", "engines"))
+        name: column_of_words(row[k] for row in rows) for k, name in enumerate(("case", "family", "statement", "engines"))
     }
     columns["checks"] = [row[4] for row in rows]
-    columns |= {name: _words(row[k] for row in rows) for k, name in ((5, "nearest_to_its_bound"), (6, "verdict"))}
+    columns |= {name: column_of_words(row[k] for row in rows) for k, name in ((5, "nearest_to_its_bound"), (6, "verdict"))}
     columns["seconds"] = [row[7] for row in rows]
     return Table(columns, {"seconds": "s"}, sentence)
 
@@ -557,64 +397,20 @@ _UNITS_OF_RUNS = {
     "mean_free_path": "length",
 }
 
-#: Words of the program's sentences, and what stands for them in Python.
-_IN_PYTHON = {
-    "carom validate --list": "carom.validation_trials()",
-    "carom hardcases --list": "carom.hard_case_names()",
-    "--play shows disks": "the page shows disks",
-    ", or leave --play out": "",
-}
-
-
-@contextmanager
-def _sentences(**names: str) -> Iterator[None]:
-    """Lets sentences of the program name arguments of Python in place of its options: "seeds=0: ..." in place of "--seeds 0: ...".
-    `names` are arguments that are not called as the option is."""
-    try:
-        yield
-    except SceneError:
-        raise
-    except ValueError as error:
-        sentence = str(error)
-        for program, python in _IN_PYTHON.items():
-            sentence = sentence.replace(program, python)
-        names = {"dt": "dts", **names}
-
-        def argument(found: re.Match[str]) -> str:
-            name = names.get(found[1], found[1])
-            return f"{name}={found[2]}:" if found[2] else name
-
-        raise ValueError(re.sub(r"--([a-z]+)(?: ([^ ]*):)?", argument, sentence)) from None
-
-
-def _paragraphs(sentences: Sequence[str]) -> str:
-    import html
-
-    return "".join(f"<p>{html.escape(sentence)}</p>" for sentence in sentences)
-
-
-def _words(values: Any) -> npt.NDArray[Any]:
-    return np.array(list(values), dtype=object)
-
-
-def _numbers(values: Any) -> npt.NDArray[np.float64]:
-    return np.array([math.nan if value is None else value for value in values], dtype=np.float64)
-
-
 def _column(cells: list[str], name: str) -> npt.NDArray[Any]:
     """A column of compare.csv: words, whole numbers, or numbers with nan for an empty cell."""
     if name == "method":
-        return _words(cells)
+        return column_of_words(cells)
     if name in ("seed", "pair"):
         return np.array([int(cell) for cell in cells])
-    return _numbers(float(cell) if cell else None for cell in cells)
+    return column_of_numbers(float(cell) if cell else None for cell in cells)
 
 
 def _prices(prices: list[dict[str, Any]]) -> Table:
-    columns: dict[str, npt.ArrayLike] = {name: _words(price[name] for price in prices) for name in ("method", "target")}
-    columns["ratio"] = _numbers(price["ratio"] for price in prices)
+    columns: dict[str, npt.ArrayLike] = {name: column_of_words(price[name] for price in prices) for name in ("method", "target")}
+    columns["ratio"] = column_of_numbers(price["ratio"] for price in prices)
     for k, name in enumerate(("lowest", "highest")):
-        columns[name] = _numbers(price["spread"] and price["spread"][k] for price in prices)
-    columns |= {name: _numbers(price[name] for price in prices) for name in ("dt", "seconds", "extrapolation")}
-    columns["remark"] = _words(price["remark"] for price in prices)
+        columns[name] = column_of_numbers(price["spread"] and price["spread"][k] for price in prices)
+    columns |= {name: column_of_numbers(price[name] for price in prices) for name in ("dt", "seconds", "extrapolation")}
+    columns["remark"] = column_of_words(price["remark"] for price in prices)
     return Table(columns, {"dt": "time", "seconds": "s"}, "Price: processor time over that of the exact engine")

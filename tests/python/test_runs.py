@@ -365,7 +365,7 @@ def test_every_public_name_is_there_when_it_is_asked_for():
 
 
 def test_names_stay_where_pickles_of_earlier_versions_look_for_them():
-    for module, names in {"runs": ("Run", "open_run")}.items():
+    for module, names in {"runs": ("Run", "open_run"), "studies": ("Horizon", "LyapunovSpectrum", "horizon", "lyapunov_spectrum")}.items():
         for name in names:
             assert pickle.loads(f"ccarom.{module}\n{name}\n.".encode()) is getattr(carom, name)
 
