@@ -118,18 +118,18 @@ void add_table_numbers(const Sweep& sweep, const fs::path& directory, Numbers& n
 }
 
 /// A number that the summary has of itself and an observable measures too, under the second name.
-struct Twin {
+struct DuplicateNumber {
   std::string_view own, observed;
 };
-constexpr std::array<Twin, 3> twins = {{{"pressure.Z", "observables.pressure.Z"},
-                                        {"pressure.reduced", "observables.pressure.reduced"},
-                                        {"temperature.mean", "observables.temperature.kT"}}};
+constexpr std::array<DuplicateNumber, 3> duplicate_numbers = {{{"pressure.Z", "observables.pressure.Z"},
+                                                               {"pressure.reduced", "observables.pressure.reduced"},
+                                                               {"temperature.mean", "observables.temperature.kT"}}};
 
 /// Leaves out numbers that are there twice.
-void drop_twins(std::vector<std::string>& columns) {
-  for (const Twin& twin : twins)
-    if (std::find(columns.begin(), columns.end(), twin.observed) != columns.end())
-      std::erase_if(columns, [&](const std::string& name) { return name == twin.own; });
+void drop_duplicates(std::vector<std::string>& columns) {
+  for (const DuplicateNumber& number : duplicate_numbers)
+    if (std::find(columns.begin(), columns.end(), number.observed) != columns.end())
+      std::erase_if(columns, [&](const std::string& name) { return name == number.own; });
 }
 
 /// Returns the usual numbers that any run has, in the order in which they first appear and none twice; those asked for, in the
@@ -140,7 +140,7 @@ std::vector<std::string> columns_of(const Sweep& sweep, const std::vector<Number
   for (const Numbers& numbers : found)
     for (const SummaryNumber& number : numbers)
       if (number.value && std::find(columns.begin(), columns.end(), number.name) == columns.end()) columns.push_back(number.name);
-  drop_twins(columns);
+  drop_duplicates(columns);
   return columns;
 }
 
