@@ -123,12 +123,12 @@ std::string failure_of(int status, const Child& child) {
   return said.empty() ? fmt::format("the run ended with exit code {}", WEXITSTATUS(status)) : said;
 }
 
-struct ChildEnd {
-  RunEnd end;
+struct ChildOutcome {
+  RunOutcome outcome;
   bool refused = false;  ///< whether the child found its command line, its scene or its files wrong, and ran nothing
 };
 
-ChildEnd run_child(const Words& words, const StopRequest& stop, const std::function<bool()>& tick) {
+ChildOutcome run_child(const Words& words, const StopRequest& stop, const std::function<bool()>& tick) {
   Child child(words);
   bool stopped = false;
   constexpr int between_ticks = 100;  // ms
@@ -148,43 +148,43 @@ ChildEnd run_child(const Words& words, const StopRequest& stop, const std::funct
 
 }  // namespace
 
-RunEnd carry_out(const RunOrder& order, const StopRequest& stop, const std::function<bool()>& tick) {
-  RunEnd end;
+RunOutcome carry_out(const RunOrder& order, const StopRequest& stop, const std::function<bool()>& tick) {
+  RunOutcome outcome;
   try {
     bool to_run = true;
     if (prepare(order)) {
-      const ChildEnd resumed = run_child(words_to_resume(order), stop, tick);
+      const ChildOutcome resumed = run_child(words_to_resume(order), stop, tick);
       // A checkpoint of another program, or a damaged one, is no reason to do without the run. Whatever else ends it, such as a
       // full disk or a kill, leaves the checkpoint good.
       to_run = resumed.refused && !stop.made() && tick();
-      end = resumed.end;
+      outcome = resumed.outcome;
     }
-    if (to_run) end = run_child(words_to_run(order), stop, tick).end;
+    if (to_run) outcome = run_child(words_to_run(order), stop, tick).outcome;
   } catch (const std::exception& error) {
-    end.failure = error.what();
+    outcome.failure = error.what();
   }
-  if (end.failure.empty()) return end;
+  if (outcome.failure.empty()) return outcome;
   try {
     PartialFile file(order.directory / failure_file);
-    file.write(end.failure + "\n");
+    file.write(outcome.failure + "\n");
     file.publish();
   } catch (const OutputError&) {
     // Without the file the run counts as not finished, and the process that started it reports its sentence once.
   }
-  return end;
+  return outcome;
 }
 
-void run_in_threads(int threads, const RunDesk& desk, const std::function<RunEnd(const RunOrder&)>& work) {
+void run_in_threads(int threads, const RunSource& source, const std::function<RunOutcome(const RunOrder&)>& work) {
   std::mutex asking, answering;
   const auto next = [&] {
     const std::scoped_lock lock(asking);
-    return desk.next();
+    return source.next();
   };
   const auto carry_out_all = [&] {
     while (const std::optional<RunOrder> order = next()) {
-      const RunEnd end = work(*order);
+      const RunOutcome outcome = work(*order);
       const std::scoped_lock lock(answering);
-      desk.done(*order, end);
+      source.done(*order, outcome);
     }
   };
   std::vector<std::future<void>> others;

@@ -72,10 +72,10 @@ std::vector<std::size_t> runs_to_do(const Sweep& sweep, const fs::path& director
 }
 
 /// Hands out runs, in the order of the sweep, until there are no more or it is to stop. Any thread may ask.
-class Desk {
+class RunDispatcher {
  public:
-  Desk(const Sweep& sweep, const fs::path& directory, const std::vector<std::size_t>& runs, const StopRequest& stop,
-       SweepProgress& progress, std::string checkpoint_every)
+  RunDispatcher(const Sweep& sweep, const fs::path& directory, const std::vector<std::size_t>& runs, const StopRequest& stop,
+                SweepProgress& progress, std::string checkpoint_every)
       : sweep_(sweep),
         directory_(directory),
         runs_(runs),
@@ -83,12 +83,12 @@ class Desk {
         progress_(progress),
         checkpoint_every_(std::move(checkpoint_every)) {}
 
-  [[nodiscard]] RunDesk open() {
+  [[nodiscard]] RunSource source() {
     return {.next = [this] { return next(); },
             .done =
-                [this](const RunOrder& order, const RunEnd& end) {
-                  progress_.ended(end);
-                  if (failure_.empty() && !end.failure.empty()) failure_ = order.directory.string() + ": " + end.failure;
+                [this](const RunOrder& order, const RunOutcome& outcome) {
+                  progress_.ended(outcome);
+                  if (failure_.empty() && !outcome.failure.empty()) failure_ = order.directory.string() + ": " + outcome.failure;
                 }};
   }
   /// Returns what went wrong in the first run that failed; empty where none did.
@@ -117,8 +117,8 @@ class Desk {
   std::size_t at_ = 0;
 };
 
-void run_all(Desk& desk, int threads, SweepServer* server, const StopRequest& stop, SweepProgress& progress) {
-  const RunDesk open = desk.open();
+void run_all(RunDispatcher& dispatcher, int threads, SweepServer* server, const StopRequest& stop, SweepProgress& progress) {
+  const RunSource source = dispatcher.source();
   const auto work = [&](const RunOrder& order) {
     return carry_out(order, stop, [&] {
       progress.tick();
@@ -126,12 +126,12 @@ void run_all(Desk& desk, int threads, SweepServer* server, const StopRequest& st
     });
   };
   if (server == nullptr) {
-    run_in_threads(threads, open, work);
+    run_in_threads(threads, source, work);
     return;
   }
-  auto here = std::async(std::launch::async, [&] { run_in_threads(threads, open, work); });
+  auto here = std::async(std::launch::async, [&] { run_in_threads(threads, source, work); });
   const auto done_here = [&] { return here.wait_for(std::chrono::seconds(0)) == std::future_status::ready; };
-  server->serve(open, done_here, [&] { return stop.made(); });
+  server->serve(source, done_here, [&] { return stop.made(); });
   here.get();
 }
 
@@ -184,9 +184,9 @@ ExitCode sweep_scene(const SweepCommandOptions& options, const Invocation& invoc
   std::string failure;
   {
     SweepProgress progress(mode, sweep.run_count(), sweep.run_count() - runs.size());
-    Desk desk(sweep, path, runs, stop, progress, options.checkpoint_every);
-    run_all(desk, std::min(threads, std::max(1, static_cast<int>(runs.size()))), server, stop, progress);
-    failure = desk.failure();
+    RunDispatcher dispatcher(sweep, path, runs, stop, progress, options.checkpoint_every);
+    run_all(dispatcher, std::min(threads, std::max(1, static_cast<int>(runs.size()))), server, stop, progress);
+    failure = dispatcher.failure();
   }
   const SweepResults results = collect(sweep, path);
   write_product(directory, "runs.csv", runs_csv(sweep, results));

@@ -29,8 +29,8 @@ std::string text_of(const RunOrder& one) {
   return fmt::format("{}{}{}{}{}{}{}", one.run, separator, one.directory.string(), separator, one.checkpoint_every, separator,
                      one.scene);
 }
-std::string text_of(std::size_t run, const RunEnd& end) {
-  return fmt::format("{}{}{}{}{}", run, separator, end.finished ? 1 : 0, separator, end.failure);
+std::string text_of(std::size_t run, const RunOutcome& outcome) {
+  return fmt::format("{}{}{}{}{}", run, separator, outcome.finished ? 1 : 0, separator, outcome.failure);
 }
 
 /// The parts between the separators, and the number in front.
@@ -55,27 +55,27 @@ void SweepServer::to_all(int kind) {
   for (int rank = 1; rank < ranks_.size(); ++rank) ranks_.send(rank, kind, "");
 }
 
-void SweepServer::answer(const Message& message, const RunDesk& desk) {
+void SweepServer::answer(const Message& message, const RunSource& source) {
   if (message.kind == leaving) {
     --working_;
   } else if (message.kind == ask) {
-    const std::optional<RunOrder> next = desk.next();
+    const std::optional<RunOrder> next = source.next();
     ranks_.send(message.from, order, next ? text_of(*next) : "");
   } else if (message.kind == ended) {
     const Parts parts = parts_of(message.text);
-    desk.done({.run = parts.run, .directory = {}, .scene = {}, .checkpoint_every = {}},
-              {.finished = parts.texts.at(0) == "1", .failure = parts.texts.at(1)});
+    source.done({.run = parts.run, .directory = {}, .scene = {}, .checkpoint_every = {}},
+                {.finished = parts.texts.at(0) == "1", .failure = parts.texts.at(1)});
   }
 }
 
-void SweepServer::serve(const RunDesk& desk, const std::function<bool()>& done_here, const std::function<bool()>& stop) {
+void SweepServer::serve(const RunSource& source, const std::function<bool()>& done_here, const std::function<bool()>& stop) {
   while (working_ > 0 || !done_here()) {
     if (!stopping_ && stop()) {
       to_all(stop_runs);
       stopping_ = true;
     }
     if (const std::optional<Message> message = ranks_.receive({})) {
-      answer(*message, desk);
+      answer(*message, source);
     } else {
       std::this_thread::sleep_for(pause);
     }
@@ -83,7 +83,7 @@ void SweepServer::serve(const RunDesk& desk, const std::function<bool()>& done_h
 }
 
 SweepServer::~SweepServer() {
-  const RunDesk closed{.next = [] { return std::nullopt; }, .done = [](const RunOrder&, const RunEnd&) {}};
+  const RunSource closed{.next = [] { return std::nullopt; }, .done = [](const RunOrder&, const RunOutcome&) {}};
   serve(
       closed, [] { return true; }, [] { return true; });
   to_all(home);
@@ -111,8 +111,8 @@ ExitCode work_for_first_rank(Processes& ranks, int threads) {
     if (receive(stop_runs)) told_to_stop = true;
     return !told_to_stop;
   };
-  RunDesk desk;
-  desk.next = [&]() -> std::optional<RunOrder> {
+  RunSource source;
+  source.next = [&]() -> std::optional<RunOrder> {
     if (stop.made() || !go_on()) return {};
     send(ask, "");
     const Message message = wait_for(order);
@@ -121,8 +121,8 @@ ExitCode work_for_first_rank(Processes& ranks, int threads) {
     return RunOrder{
         .run = parts.run, .directory = parts.texts.at(0), .scene = parts.texts.at(2), .checkpoint_every = parts.texts.at(1)};
   };
-  desk.done = [&](const RunOrder& done, const RunEnd& end) { send(ended, text_of(done.run, end)); };
-  run_in_threads(threads, desk, [&](const RunOrder& one) { return carry_out(one, stop, go_on); });
+  source.done = [&](const RunOrder& done, const RunOutcome& outcome) { send(ended, text_of(done.run, outcome)); };
+  run_in_threads(threads, source, [&](const RunOrder& one) { return carry_out(one, stop, go_on); });
   send(leaving, "");
   (void)wait_for(home);
   while (receive(stop_runs)) continue;  // MPI wants every message received

@@ -19,10 +19,10 @@ class SweepServer {
   SweepServer& operator=(const SweepServer&) = delete;
 
   /// Answers the others until none of them works any more and `done_here` says so. Has them stop their runs where `stop` says so.
-  void serve(const RunDesk& desk, const std::function<bool()>& done_here, const std::function<bool()>& stop);
+  void serve(const RunSource& source, const std::function<bool()>& done_here, const std::function<bool()>& stop);
 
  private:
-  void answer(const Message& message, const RunDesk& desk);
+  void answer(const Message& message, const RunSource& source);
   void to_all(int kind);
 
   Processes& ranks_;

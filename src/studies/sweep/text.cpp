@@ -23,9 +23,9 @@ void SweepProgress::begun() {
   show();
 }
 
-void SweepProgress::ended(const RunEnd& end) {
+void SweepProgress::ended(const RunOutcome& outcome) {
   const std::scoped_lock lock(mutex_);
-  ++(end.finished ? finished_ : end.failure.empty() ? stopped_ : failed_);
+  ++(outcome.finished ? finished_ : outcome.failure.empty() ? stopped_ : failed_);
   show();
 }
 

@@ -21,7 +21,7 @@ class SweepProgress {
   SweepProgress(ProgressMode mode, std::size_t runs, std::size_t before);
 
   void begun();
-  void ended(const RunEnd& end);
+  void ended(const RunOutcome& outcome);
   void tick();  ///< now and then
 
  private:
