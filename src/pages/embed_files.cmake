@@ -9,7 +9,7 @@ set(carom_page_files page/page.css page/errors.js page/theme.js page/numbers.js 
     player/hexatic.js player/scales.js player/palettes.js player/settings.js player/view.js player/trails.js player/raster.js player/drawing.js
     player/readings.js player/legend.js player/plots.js player/clock.js player/controls.js player/keyboard.js player/pointer.js
     player/panel.js player/player.js
-    side_by_side/side_by_side.html side_by_side/sides.js side_by_side/twins.js side_by_side/overlaps.js side_by_side/curves.js
+    side_by_side/side_by_side.html side_by_side/sides.js side_by_side/distances.js side_by_side/overlaps.js side_by_side/curves.js
     side_by_side/panel.js)
 
 if(NOT CMAKE_SCRIPT_MODE_FILE)

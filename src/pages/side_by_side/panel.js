@@ -17,7 +17,7 @@ const panel = {
   /// Draws the moment. While the page plays, overlaps since the last frame are marked too.
   show(since) {
     const { time } = moment;
-    const distance = measureTwins();
+    const distance = measureDistances();
     drawMoment(moment);
     drawMoment(stepsMoment, stepsContext);
     const flashing = overlapsBetween(Math.min(since, time), Math.max(since, time));

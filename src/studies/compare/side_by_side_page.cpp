@@ -21,7 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using detail::NumberColumns;
 
-constexpr std::array<std::string_view, 4> panel_scripts = {"side_by_side/twins.js", "side_by_side/overlaps.js",
+constexpr std::array<std::string_view, 4> panel_scripts = {"side_by_side/distances.js", "side_by_side/overlaps.js",
                                                            "side_by_side/curves.js", "side_by_side/panel.js"};
 
 std::vector<std::string> species_names(const Scene& scene) {

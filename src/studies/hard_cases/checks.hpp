@@ -17,8 +17,8 @@ namespace carom {
 /// but the one that the others are compared with.
 [[nodiscard]] std::vector<CaseCheck> checks_of_order(const HardCase& hard_case, const std::vector<EngineRun>& runs);
 
-/// Returns the checks that need runs of their own: velocities reversed, disks in another order.
-[[nodiscard]] std::vector<CaseCheck> checks_of_twins(const HardCase& hard_case, const Scene& scene, const EngineRun& run);
+/// Returns the checks that need runs of their own: velocities reversed, disks in another order, a late sample.
+[[nodiscard]] std::vector<CaseCheck> checks_of_reruns(const HardCase& hard_case, const Scene& scene, const EngineRun& run);
 
 /// Returns the check of a number against a bound; NaN is beyond every bound.
 [[nodiscard]] CaseCheck within(std::string what, const EngineRun& run, double value, double bound);

@@ -80,7 +80,7 @@ class Trial {
       verdict_.engines.push_back(engine);
       if (hard_case_.expect.refused) return verdict_.checks.push_back(no_refusal(hard_case_, engine));
       append(verdict_.checks, checks_of_run(hard_case_, scene, run));
-      append(verdict_.checks, checks_of_twins(hard_case_, scene, run));
+      append(verdict_.checks, checks_of_reruns(hard_case_, scene, run));
       runs_.push_back(std::move(run));
     } catch (const std::invalid_argument& error) {
       // The engine does not cover the scene; that is a failure only where it was asked for by name.

@@ -1,4 +1,4 @@
-// The twins of a run: backwards in time, and with the disks in another order.
+// Checks that need further runs: velocities reversed, disks in another order, and a late sample.
 
 #include "studies/hard_cases/checks.hpp"
 
@@ -63,8 +63,8 @@ std::vector<Order> other_orders(std::size_t disks) {
 double off_when_relabelled(const Scene& scene, const EngineRun& run) {
   double largest = 0.0;
   for (const Order& order : other_orders(run.disks.count())) {
-    const EngineRun twin = run_in_engine(relabelled(scene, run, order), run.engine, {});
-    largest = std::max(largest, difference(scene.box, twin.end, in_order(run.end, order)));
+    const EngineRun rerun = run_in_engine(relabelled(scene, run, order), run.engine, {});
+    largest = std::max(largest, difference(scene.box, rerun.end, in_order(run.end, order)));
   }
   return largest;
 }
@@ -88,7 +88,7 @@ double off_at_late_sample(const Scene& scene, const EngineRun& run, const LateSa
 
 }  // namespace
 
-std::vector<CaseCheck> checks_of_twins(const HardCase& hard_case, const Scene& scene, const EngineRun& run) {
+std::vector<CaseCheck> checks_of_reruns(const HardCase& hard_case, const Scene& scene, const EngineRun& run) {
   std::vector<CaseCheck> checks;
   const Expectations& expect = hard_case.expect;
   if (expect.reversed) checks.push_back(within("reversed", run, off_when_reversed(scene, run), widened(*expect.reversed, run)));

@@ -5,7 +5,7 @@
 const apart = new Float64Array(disks);  // distance of each disk at the moment shown, to the nearest image, in mean diameters
 
 /// Fills `apart`, and returns its root mean square.
-function measureTwins() {
+function measureDistances() {
   let sum = 0;
   const between = (a, b, axis) => {
     const d = a - b;
