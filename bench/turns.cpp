@@ -3,7 +3,7 @@
 // reads a number of pair collisions per line, and answers each with the processor time that they took, in seconds. At the end of
 // the input it prints Z = pA/NkT over all turns, and exits with 4 where its answer is wrong.
 
-#include "studies/benchmark/contender.hpp"
+#include "studies/benchmark/timed_engine.hpp"
 
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@ int main(int argc, char** argv) try {
   }
   const std::int64_t disks = std::stoll(argv[1]);
   const auto run_up = static_cast<std::uint64_t>(std::stod(argv[3]) * static_cast<double>(disks));
-  carom::cli::Contender engine(carom::cli::bench_scene(disks, std::stod(argv[2])), "fast", run_up);
+  carom::cli::TimedEngine engine(carom::cli::bench_scene(disks, std::stod(argv[2])), "fast", run_up);
   const auto say = [](const std::string& line) { fmt::print("{}\n", line), std::fflush(stdout); };
   say("ready");
   for (std::uint64_t collisions = 0; std::cin >> collisions;) {

@@ -4,7 +4,7 @@
 #include "studies/benchmark/command.hpp"
 #include "core/instructions.hpp"
 #include "io/json.hpp"
-#include "studies/benchmark/contender.hpp"
+#include "studies/benchmark/timed_engine.hpp"
 #include "studies/machine.hpp"
 #include "terminal/progress.hpp"
 #include "text/numbers.hpp"
@@ -37,40 +37,41 @@ struct Runner {
 };
 constexpr Runner runners[] = {{"fast", 4}, {"textbook", 1}};
 
-/// Both engines on one scene, in turns.
-std::vector<Contender> race(std::int64_t disks, double packing_fraction, std::uint64_t turn, const StatusLine& status) {
+/// Times both engines on one scene, in turns.
+std::vector<TimedEngine> time_in_turns(std::int64_t disks, double packing_fraction, std::uint64_t turn,
+                                       const StatusLine& status) {
   const Scene scene = bench_scene(disks, packing_fraction);
   const std::string what =
       fmt::format("{} at packing fraction {}", counted(static_cast<std::uint64_t>(disks), "disk"), packing_fraction);
-  std::vector<Contender> contenders;
-  contenders.reserve(std::size(runners));
+  std::vector<TimedEngine> engines;
+  engines.reserve(std::size(runners));
   for (const Runner& runner : runners) {
     status.show(fmt::format("{}: {} runs up", what, runner.engine));
     // At least 20 collisions of every disk, after which the lattice of the start is gone from a fluid.
-    contenders.emplace_back(scene, runner.engine, std::max(10 * static_cast<std::uint64_t>(disks), runner.share * turn));
+    engines.emplace_back(scene, runner.engine, std::max(10 * static_cast<std::uint64_t>(disks), runner.share * turn));
   }
   for (int k = 1; k <= turns; ++k) {
     status.show(fmt::format("{}: turn {} of {}", what, k, turns));
-    for (std::size_t c = 0; c < contenders.size(); ++c) contenders[c].take_turn(runners[c].share * turn);
+    for (std::size_t c = 0; c < engines.size(); ++c) engines[c].take_turn(runners[c].share * turn);
   }
   status.show("");
-  return contenders;
+  return engines;
 }
 
-Json json_of(const Contender& contender) {
-  const Totals totals = contender.totals();
+Json json_of(const TimedEngine& engine) {
+  const Totals totals = engine.totals();
   const auto pairs = static_cast<double>(totals.pair);
-  const auto [slowest, fastest] = std::minmax_element(contender.rates().begin(), contender.rates().end());
-  const std::optional<double> bytes = contender.bytes_per_disk();
-  return {{"collisions_per_second", contender.median_rate()},
+  const auto [slowest, fastest] = std::minmax_element(engine.rates().begin(), engine.rates().end());
+  const std::optional<double> bytes = engine.bytes_per_disk();
+  return {{"collisions_per_second", engine.median_rate()},
           {"slowest_turn", *slowest},
           {"fastest_turn", *fastest},
           {"collisions", totals.pair},
           {"stale_per_collision", static_cast<double>(totals.stale) / pairs},
           {"other_per_collision", static_cast<double>(totals.other) / pairs},
           {"bytes_per_disk", bytes ? Json(*bytes) : Json(nullptr)},
-          {"Z", contender.compressibility()},
-          {"relative_energy_drift", contender.energy_drift()}};
+          {"Z", engine.compressibility()},
+          {"relative_energy_drift", engine.energy_drift()}};
 }
 
 void print_heading() {
@@ -82,9 +83,9 @@ void print_heading() {
   std::fflush(stdout);
 }
 
-void print_row(std::int64_t disks, double packing_fraction, const Contender& fast, const Contender& textbook) {
-  const auto bytes = [](const Contender& contender) {
-    const std::optional<double> number = contender.bytes_per_disk();
+void print_row(std::int64_t disks, double packing_fraction, const TimedEngine& fast, const TimedEngine& textbook) {
+  const auto bytes = [](const TimedEngine& engine) {
+    const std::optional<double> number = engine.bytes_per_disk();
     return number ? fmt::format("{:.0f}", *number) : "?";
   };
   fmt::print("| {:<16} | {:>9} | {:>6.2f}e6 | {:>6.2f}e6 | {:>5.1f} | {:>14} |\n", packing_fraction,
@@ -119,10 +120,10 @@ ExitCode bench(const BenchOptions& options) {
   for (const double packing_fraction : packing_fractions) {
     for (const std::int64_t disks : all_disks) {
       const std::uint64_t turn = options.collisions.value_or(std::max(usual_turn, static_cast<std::uint64_t>(disks)));
-      const std::vector<Contender> contenders = race(disks, packing_fraction, turn, status);
+      const std::vector<TimedEngine> engines = time_in_turns(disks, packing_fraction, turn, status);
       bool right = true;
-      for (const Contender& contender : contenders) {
-        const std::string fault = contender.fault();
+      for (const TimedEngine& engine : engines) {
+        const std::string fault = engine.fault();
         if (fault.empty()) continue;
         right = false;
         json["failed"].push_back(fault);
@@ -131,10 +132,10 @@ ExitCode bench(const BenchOptions& options) {
       if (!right) continue;
       Json row = {{"packing_fraction", packing_fraction},
                   {"disks", disks},
-                  {"ratio", contenders[0].median_rate() / contenders[1].median_rate()}};
-      for (const Contender& contender : contenders) row[contender.engine()] = json_of(contender);
+                  {"ratio", engines[0].median_rate() / engines[1].median_rate()}};
+      for (const TimedEngine& engine : engines) row[engine.engine()] = json_of(engine);
       json["rows"].push_back(row);
-      if (!options.json) print_row(disks, packing_fraction, contenders[0], contenders[1]);
+      if (!options.json) print_row(disks, packing_fraction, engines[0], engines[1]);
     }
   }
   if (options.json) fmt::print("{}\n", json.dump(2));

@@ -4,8 +4,8 @@
 
 #include "studies/benchmark/command.hpp"
 
-#include "studies/benchmark/contender.hpp"
 #include "studies/benchmark/priced_effects.hpp"
+#include "studies/benchmark/timed_engine.hpp"
 #include "terminal/progress.hpp"
 #include "text/numbers.hpp"
 
@@ -40,7 +40,7 @@ struct Ratio {
 };
 
 /// Turn by turn, how many times as long as the first a collision of the second takes.
-Ratio ratio_of(const Contender& lean, const Contender& other) {
+Ratio ratio_of(const TimedEngine& lean, const TimedEngine& other) {
   std::vector<double> ratios;
   for (std::size_t turn = 0; turn < lean.rates().size(); ++turn) ratios.push_back(lean.rates()[turn] / other.rates()[turn]);
   std::sort(ratios.begin(), ratios.end());
@@ -70,10 +70,10 @@ Scene of_two_species(Scene gas) {
   return gas;
 }
 
-/// The lean engine, the general one with the effect at its neutral value, and with the effect acting.
-class Race {
+/// Times the lean engine, the general one with the effect at its neutral value, and one with the effect acting, in turns.
+class EffectTiming {
  public:
-  Race(const Scene& gas, const PricedEffect& effect, std::uint64_t turn) : effect_(effect), turn_(turn) {
+  EffectTiming(const Scene& gas, const PricedEffect& effect, std::uint64_t turn) : effect_(effect), turn_(turn) {
     const auto run_up = std::max(10 * static_cast<std::uint64_t>(gas.disk_count()), turn);
     lean_.emplace(gas, "fast", run_up);
     if (effect.neutral) neutral_.emplace(with(gas, *effect.neutral), "general", run_up);
@@ -81,7 +81,7 @@ class Race {
   }
 
   void take_turn() {
-    for (Contender* contender : contenders()) contender->take_turn(turn_);
+    for (TimedEngine* engine : engines()) engine->take_turn(turn_);
     // The order is reversed in turn: each finds the caches as the one before has left them.
     first_ = (first_ + 1) % 3;
   }
@@ -94,13 +94,13 @@ class Race {
     if (!same_bits()) return fmt::format("{}: its neutral value leaves other bits than the engine without it", effect_.name);
     if (acting_ && same_bits(lean_->state(), acting_->state()))
       return fmt::format("{}: nothing shows that it acts", effect_.name);
-    for (const std::optional<Contender>* contender : {&lean_, &neutral_, &acting_})
-      if (const std::string wrong = *contender ? (*contender)->fault() : ""; !wrong.empty())
+    for (const std::optional<TimedEngine>* engine : {&lean_, &neutral_, &acting_})
+      if (const std::string wrong = *engine ? (*engine)->fault() : ""; !wrong.empty())
         return fmt::format("{}: {}", effect_.name, wrong);
     return "";
   }
 
-  [[nodiscard]] const Contender& lean() const { return *lean_; }
+  [[nodiscard]] const TimedEngine& lean() const { return *lean_; }
   [[nodiscard]] std::optional<Ratio> neutral() const {
     return neutral_ ? std::optional(ratio_of(*lean_, *neutral_)) : std::nullopt;
   }
@@ -119,10 +119,10 @@ class Race {
   }
 
   /// Returns the three in the order of this turn.
-  std::vector<Contender*> contenders() {
-    std::vector<Contender*> all;
-    for (std::optional<Contender>* contender : {&lean_, &neutral_, &acting_})
-      if (*contender) all.push_back(&**contender);
+  std::vector<TimedEngine*> engines() {
+    std::vector<TimedEngine*> all;
+    for (std::optional<TimedEngine>* engine : {&lean_, &neutral_, &acting_})
+      if (*engine) all.push_back(&**engine);
     std::rotate(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(first_ % all.size()), all.end());
     return all;
   }
@@ -130,7 +130,7 @@ class Race {
   const PricedEffect& effect_;
   std::uint64_t turn_;
   std::size_t first_ = 0;
-  std::optional<Contender> lean_, neutral_, acting_;
+  std::optional<TimedEngine> lean_, neutral_, acting_;
 };
 
 struct Price {
@@ -206,10 +206,10 @@ ExitCode bench_effects(const BenchOptions& options) {
       gas = of_two_species(std::move(gas));
       for (const PricedEffect& effect : priced_effects(gas)) {
         status.show(fmt::format("packing fraction {}: {}", packing_fraction, effect.name));
-        Race race(gas, effect, turn);
-        for (int k = 0; k < rounds && race.same_bits(); ++k) race.take_turn();
+        EffectTiming timing(gas, effect, turn);
+        for (int k = 0; k < rounds && timing.same_bits(); ++k) timing.take_turn();
         status.show("");
-        if (const std::string fault = race.fault(); !fault.empty()) {
+        if (const std::string fault = timing.fault(); !fault.empty()) {
           json["failed"].push_back(fault);
           fmt::print(stderr, "carom: {}; its price says nothing\n", fault);
           continue;
@@ -218,10 +218,10 @@ ExitCode bench_effects(const BenchOptions& options) {
                           .value = effect.value,
                           .walled = walled,
                           .packing_fraction = packing_fraction,
-                          .lean_seconds = 1.0 / race.lean().median_rate(),
-                          .neutral = race.neutral(),
-                          .acting = race.acting(),
-                          .acting_engine = race.acting_engine()};
+                          .lean_seconds = 1.0 / timing.lean().median_rate(),
+                          .neutral = timing.neutral(),
+                          .acting = timing.acting(),
+                          .acting_engine = timing.acting_engine()};
         json["rows"].push_back(json_of(price));
         if (!options.json) print_row(price);
       }

@@ -3,7 +3,7 @@
 
 #include "core/seconds.hpp"
 #include "studies/benchmark/command.hpp"
-#include "studies/benchmark/contender.hpp"
+#include "studies/benchmark/timed_engine.hpp"
 #include "terminal/progress.hpp"
 #include "text/number_in.hpp"
 #include "text/numbers.hpp"
@@ -43,9 +43,10 @@ struct TurnOnCores {
   std::uint64_t collisions = 0;
 };
 
-class RaceOnCores {
+/// Times a run on one core and the same run on several, in turns of the same simulated time.
+class CoresTiming {
  public:
-  RaceOnCores(const Scene& scene, int threads, std::uint64_t run_up, std::uint64_t turn)
+  CoresTiming(const Scene& scene, int threads, std::uint64_t run_up, std::uint64_t turn)
       : alone_(make_simulation(scene)), shared_(make_simulation(scene)) {
     shared_.set_threads(
         {.threads = std::min(static_cast<std::size_t>(threads), processors()), .domains = static_cast<std::size_t>(threads)});
@@ -105,21 +106,21 @@ class RaceOnCores {
   std::vector<TurnOnCores> turns_;
 };
 
-Json json_of(const RaceOnCores& race, std::int64_t disks, double packing_fraction) {
-  const ThreadCounts counts = race.counts();
+Json json_of(const CoresTiming& timing, std::int64_t disks, double packing_fraction) {
+  const ThreadCounts counts = timing.counts();
   const auto ratio = [](double of, double to) { return to > 0.0 ? Json(of / to) : Json(nullptr); };
   return {{"packing_fraction", packing_fraction},
           {"disks", disks},
           {"collisions_per_second_alone",
-           race.median([](const TurnOnCores& turn) { return static_cast<double>(turn.collisions) / turn.alone_wall; })},
+           timing.median([](const TurnOnCores& turn) { return static_cast<double>(turn.collisions) / turn.alone_wall; })},
           {"collisions_per_second",
-           race.median([](const TurnOnCores& turn) { return static_cast<double>(turn.collisions) / turn.shared_wall; })},
-          {"ratio", race.median([](const TurnOnCores& turn) { return turn.alone_wall / turn.shared_wall; })},
-          {"ratio_undisturbed", race.median([](const TurnOnCores& turn) { return turn.alone_processor / turn.critical; })},
+           timing.median([](const TurnOnCores& turn) { return static_cast<double>(turn.collisions) / turn.shared_wall; })},
+          {"ratio", timing.median([](const TurnOnCores& turn) { return turn.alone_wall / turn.shared_wall; })},
+          {"ratio_undisturbed", timing.median([](const TurnOnCores& turn) { return turn.alone_processor / turn.critical; })},
           {"ratio_of_processor_time",
-           race.median([](const TurnOnCores& turn) { return turn.alone_processor / turn.shared_processor; })},
+           timing.median([](const TurnOnCores& turn) { return turn.alone_processor / turn.shared_processor; })},
           {"events_computed_twice", ratio(static_cast<double>(counts.copied_events), static_cast<double>(counts.events))},
-          {"memory_ratio", race.memory_ratio()},
+          {"memory_ratio", timing.memory_ratio()},
           {"domains", counts.domains},
           {"windows", counts.windows},
           {"windows_redone", counts.windows_redone}};
@@ -186,18 +187,18 @@ ExitCode bench_threads(const BenchOptions& options) {
       const std::string what = fmt::format("{} at packing fraction {}", counted(count, "disk"), packing_fraction);
       status.show(fmt::format("{}: both run up", what));
       const std::uint64_t turn = options.collisions.value_or(std::max(fewest_collisions_on_cores, 2 * count));
-      RaceOnCores race(bench_scene(disks, packing_fraction), threads, 10 * count, turn);
-      for (int k = 1; k <= turns_on_cores && race.same_bits(); ++k) {
+      CoresTiming timing(bench_scene(disks, packing_fraction), threads, 10 * count, turn);
+      for (int k = 1; k <= turns_on_cores && timing.same_bits(); ++k) {
         status.show(fmt::format("{}: turn {} of {}", what, k, turns_on_cores));
-        race.take_turn();
+        timing.take_turn();
       }
       status.show("");
-      if (!race.same_bits()) {
+      if (!timing.same_bits()) {
         json["failed"].push_back(fmt::format("{}: {} threads have other bits than one", what, threads));
         fmt::print(stderr, "carom: {}: {} threads have other bits than one; their speed says nothing\n", what, threads);
         continue;
       }
-      json["rows"].push_back(json_of(race, disks, packing_fraction));
+      json["rows"].push_back(json_of(timing, disks, packing_fraction));
       if (!options.json) print_row_on_cores(json["rows"].back());
     }
   }

@@ -1,5 +1,5 @@
 #pragma once
-// One engine in a race over one scene: run up, timed in turns, and held to what is known of the answer.
+// An engine whose speed is measured on one scene, after a warm-up, with a check of energy, plan and pressure.
 
 #include <carom/simulation.hpp>
 
@@ -15,10 +15,10 @@ namespace carom::cli {
 /// can: nearly square.
 Scene bench_scene(std::int64_t disks, double packing_fraction);
 
-class Contender {
+class TimedEngine {
  public:
   /// Brings the engine of that name to life, and lets it run for so many pair collisions before anything is measured.
-  Contender(const Scene& scene, const std::string& engine, std::uint64_t run_up);
+  TimedEngine(const Scene& scene, const std::string& engine, std::uint64_t run_up);
 
   /// Times so many pair collisions more, in seconds of this program's processor time: what other programs take does not count.
   void take_turn(std::uint64_t collisions);

@@ -1,4 +1,4 @@
-#include "studies/benchmark/contender.hpp"
+#include "studies/benchmark/timed_engine.hpp"
 
 #include "observe/effects_report.hpp"
 #include "observe/energy.hpp"
@@ -47,7 +47,7 @@ Scene bench_scene(std::int64_t disks, double packing_fraction) {
   return scene;
 }
 
-Contender::Contender(const Scene& scene, const std::string& engine, std::uint64_t run_up)
+TimedEngine::TimedEngine(const Scene& scene, const std::string& engine, std::uint64_t run_up)
     : memory_before_(memory_held()), simulation_(make_simulation(scene, engine)), energy_(energy_balance()) {
   stopped_ = simulation_.run_until(end_of_time, {.collisions = run_up}) != StopReason::collisions;
   run_up_drift_ = energy_drift();
@@ -56,7 +56,7 @@ Contender::Contender(const Scene& scene, const std::string& engine, std::uint64_
   memory_ = memory_held();
 }
 
-void Contender::take_turn(std::uint64_t collisions) {
+void TimedEngine::take_turn(std::uint64_t collisions) {
   const std::uint64_t before = totals().pair;
   const double start = processor_seconds();
   stopped_ = simulation_.run_until(end_of_time, {.collisions = before + collisions}) != StopReason::collisions || stopped_;
@@ -64,7 +64,7 @@ void Contender::take_turn(std::uint64_t collisions) {
   rates_.push_back(static_cast<double>(totals().pair - before) / seconds);
 }
 
-std::string Contender::fault() const {
+std::string TimedEngine::fault() const {
   const auto of = [&](const std::string& sentence) {
     const Scene& scene = simulation_.scene();
     return fmt::format("{}, {} disks at packing fraction {:.4g}: {}", engine(), scene.disk_count(), scene.packing_fraction(),
@@ -86,27 +86,27 @@ std::string Contender::fault() const {
   return of(fmt::format("Z is {:.4f}, where the equation of state says {:.4f} and chance explains {:.4f}", Z, expected, allowed));
 }
 
-double Contender::median_rate() const {
+double TimedEngine::median_rate() const {
   std::vector<double> sorted = rates_;
   std::sort(sorted.begin(), sorted.end());
   return sorted.empty() ? 0.0 : sorted[sorted.size() / 2];
 }
 
-double Contender::energy_drift() const { return run_up_drift_ + std::abs(energy_balance() / energy_ - 1.0); }
+double TimedEngine::energy_drift() const { return run_up_drift_ + std::abs(energy_balance() / energy_ - 1.0); }
 
-double Contender::energy_balance() const {
+double TimedEngine::energy_balance() const {
   const Scene& scene = simulation_.scene();
   const State state = simulation_.state();
   const double given = effects_report(scene, simulation_.disks(), totals(), state).energy_supplied.value_or(0.0);
   return total_energy(scene.box, scene.effects, simulation_.disks(), state) - given;
 }
 
-double Contender::compressibility() const {
+double TimedEngine::compressibility() const {
   const double kT = kinetic_temperature(simulation_.scene().box, simulation_.disks(), simulation_.state());
   return carom::compressibility(totals().virial / simulation_.time(), disks(), kT);
 }
 
-std::optional<double> Contender::bytes_per_disk() const {
+std::optional<double> TimedEngine::bytes_per_disk() const {
   if (!memory_before_ || !memory_) return std::nullopt;
   return (static_cast<double>(*memory_) - static_cast<double>(*memory_before_)) / disks();
 }
