@@ -6,7 +6,7 @@
 #include "studies/compare/answers.hpp"
 #include "studies/compare/files.hpp"
 #include "studies/compare/reference.hpp"
-#include "studies/horizon/pace.hpp"
+#include "studies/horizon/event_rates.hpp"
 #include "support/comparisons.hpp"
 
 #include <gmock/gmock.h>
@@ -250,11 +250,11 @@ TEST(Compare, OfAGasThatCoolsTheEngineThatRunsItIsComparedAndThereIsNoZ) {
     EXPECT_FALSE(summary.Z) << summary.method.name;
     EXPECT_FALSE(summary.Z_bias) << summary.method.name;
   }
-  // The pace is that of the start: the gas has not yet lost half of its speed.
-  const Pace pace = measure_pace(scene, make_simulation(scene).state());
+  // The rates are those of the start: the gas has not yet lost half of its speed.
+  const EventRates rates = measure_event_rates(scene, make_simulation(scene).state());
   scene.effects.collision.restitution.reset();
-  const Pace elastic = measure_pace(scene, make_simulation(scene).state());
-  EXPECT_GT(pace.collision_rate, 0.5 * elastic.collision_rate);
+  const EventRates elastic = measure_event_rates(scene, make_simulation(scene).state());
+  EXPECT_GT(rates.collision_rate, 0.5 * elastic.collision_rate);
 }
 
 TEST(Compare, ScenesWithoutCollisionsAreRefusedInASentence) {

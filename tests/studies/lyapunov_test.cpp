@@ -168,7 +168,7 @@ TEST(TangentFlow, AWallTurnsRoundTheDifferenceAcrossIt) {
 
 std::optional<Lyapunov> exponent_of(const Scene& scene, std::uint64_t collisions = 0) {
   const State start = make_simulation(scene).state();
-  return measure_lyapunov(scene, start, measure_pace(scene, start), {.collisions = collisions, .proceed = {}});
+  return measure_lyapunov(scene, start, measure_event_rates(scene, start), {.collisions = collisions, .proceed = {}});
 }
 
 TEST(Lyapunov, IsNoneWhereDisksNeverCollide) {
@@ -186,7 +186,7 @@ TEST(Lyapunov, EndsWhenToldTo) {
   const State start = make_simulation(scene).state();
   int asked = 0;
   const auto proceed = [&](double) { return ++asked < 3; };
-  EXPECT_FALSE(measure_lyapunov(scene, start, measure_pace(scene, start), {.collisions = 0, .proceed = proceed}));
+  EXPECT_FALSE(measure_lyapunov(scene, start, measure_event_rates(scene, start), {.collisions = 0, .proceed = proceed}));
   EXPECT_EQ(asked, 3);
 }
 

@@ -71,7 +71,7 @@ TEST(LyapunovSpectrumOf, ReversalIsPairedInTheLimit) {
 TEST(LyapunovSpectrumOf, AGasBeginsWithItsLargestExponent) {
   const Scene scene = gas_scene(8, 0.3, Boundary::periodic);
   const State start = make_simulation(scene).state();
-  const auto alone = measure_lyapunov(scene, start, measure_pace(scene, start), {.collisions = 60'000});
+  const auto alone = measure_lyapunov(scene, start, measure_event_rates(scene, start), {.collisions = 60'000});
   const LyapunovSpectrum found = spectrum_of(scene, 6000);
   ASSERT_TRUE(alone && alone->per_time_error && found.errors.front());
   EXPECT_NEAR(found.exponents.front(), alone->per_time, 4.0 * std::hypot(*alone->per_time_error, *found.errors.front()));

@@ -15,8 +15,8 @@
 #include "studies/compare/costs.hpp"
 #include "studies/compare/mistakes.hpp"
 #include "studies/compare/reference.hpp"
+#include "studies/horizon/event_rates.hpp"
 #include "studies/horizon/horizon.hpp"
-#include "studies/horizon/pace.hpp"
 #include "studies/machine.hpp"
 
 #include <fmt/format.h>
@@ -89,8 +89,8 @@ class Study {
     ComparePlan& plan = result_.plan;
     const std::optional<State> start = start_with(scene_.run.seed);
     if (!start) return false;
-    const Pace pace = measure_pace(scene_, *start);
-    if (!(pace.collision_rate > 0.0))
+    const EventRates rates = measure_event_rates(scene_, *start);
+    if (!(rates.collision_rate > 0.0))
       throw std::invalid_argument("no two disks of this scene collide; there is nothing to compare");
     HorizonOptions options;
     options.engine = "textbook";
@@ -103,7 +103,7 @@ class Study {
     plan.horizon = measure_horizon(scene_, *start, options);
     if (plan.horizon.ended == HorizonEnd::interrupted) return false;
     plan.sigma = plan.horizon.sigma;
-    plan.mean_free_time = 1.0 / (plan.horizon.lyapunov ? plan.horizon.lyapunov->collision_rate : pace.collision_rate);
+    plan.mean_free_time = 1.0 / (plan.horizon.lyapunov ? plan.horizon.lyapunov->collision_rate : rates.collision_rate);
     const Disks disks = make_simulation(scene_, *start).disks();
     plan.disks = disks.count();
     plan.temperature = kinetic_temperature(scene_.box, disks, *start);

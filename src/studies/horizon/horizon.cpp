@@ -4,9 +4,9 @@
 #include "core/real.hpp"
 #include "simulation/fixed_step.hpp"
 #include "studies/horizon/difference.hpp"
+#include "studies/horizon/event_rates.hpp"
 #include "studies/horizon/lyapunov.hpp"
 #include "studies/horizon/method.hpp"
-#include "studies/horizon/pace.hpp"
 #include "studies/state_distance.hpp"
 
 #include <carom/simulation.hpp>
@@ -89,10 +89,10 @@ class HorizonSearch {
 
   Horizon operator()() {
     prepare();
-    pace_ = measure_pace(scene_, start_);
+    rates_ = measure_event_rates(scene_, start_);
     if (measure_exponent()) {
       choose_steps();
-      if (pace_.stuck) {
+      if (rates_.stuck) {
         result_.ended = HorizonEnd::stuck;
       } else {
         advance_all();
@@ -158,7 +158,7 @@ class HorizonSearch {
       stopped = !proceed("measuring the Lyapunov exponent", lyapunov_share * fraction);
       return !stopped;
     };
-    result_.lyapunov = measure_lyapunov(scene_, start_, pace_, how);
+    result_.lyapunov = measure_lyapunov(scene_, start_, rates_, how);
     return !stopped;
   }
 
@@ -172,17 +172,17 @@ class HorizonSearch {
                          most_collisions_per_disk / result_.lyapunov->collision_rate);
     }
     if (!scene_.run.time) {  // four times as long as the collisions should take; or as far as was looked ahead
-      end_ = beyond_ > 0.0 ? 0.0 : pace_.time;
-      if (scene_.run.collisions && pace_.collision_rate > 0.0)
-        end_ = 4.0 * 2.0 * static_cast<double>(*scene_.run.collisions) / disks_ / pace_.collision_rate;
+      end_ = beyond_ > 0.0 ? 0.0 : rates_.time;
+      if (scene_.run.collisions && rates_.collision_rate > 0.0)
+        end_ = 4.0 * 2.0 * static_cast<double>(*scene_.run.collisions) / disks_ / rates_.collision_rate;
     }
     step_ = std::max(end_, beyond_) / 64.0;
-    if (pace_.collision_rate > 0.0) {
-      step_ = 1.0 / (comparisons_per_collision * pace_.collision_rate);
-    } else if (pace_.events_per_time > 0.0) {  // by events with walls and obstacles, as far as comparisons do not take long
-      step_ = std::clamp(disks_ / (comparisons_per_collision * pace_.events_per_time), end_ / most_comparisons, step_);
+    if (rates_.collision_rate > 0.0) {
+      step_ = 1.0 / (comparisons_per_collision * rates_.collision_rate);
+    } else if (rates_.events_per_time > 0.0) {  // by events with walls and obstacles, as far as comparisons do not take long
+      step_ = std::clamp(disks_ / (comparisons_per_collision * rates_.events_per_time), end_ / most_comparisons, step_);
     }
-    if (pace_.events_per_time > 0.0) step_ = std::min(step_, std::max(events_per_comparison, disks_) / pace_.events_per_time);
+    if (rates_.events_per_time > 0.0) step_ = std::min(step_, std::max(events_per_comparison, disks_) / rates_.events_per_time);
     result_.resolution = step_;
     limit_ = options_.limit > 0 ? static_cast<double>(options_.limit) : std::clamp(1500.0 * disks_, 2e6, 2e8);
   }
@@ -231,7 +231,7 @@ class HorizonSearch {
         result_.ended = HorizonEnd::interrupted;
         return false;
       }
-      const std::uint64_t most = one.simulation.totals().pair + carom::stalled(one.simulation.disks().count());
+      const std::uint64_t most = one.simulation.totals().pair + stall_limit(one.simulation.disks().count());
       const StopReason reason = k > 0 ? one.simulation.run_until_sample(k, step_, {.collisions = most})
                                       : one.simulation.run_until(time, {.collisions = most});
       one.stalled = reason != StopReason::time;
@@ -327,7 +327,7 @@ class HorizonSearch {
   Horizon result_;
   std::vector<Runner> runners_;  ///< the best first
   std::size_t last_of_ladder_ = 0;
-  Pace pace_;
+  EventRates rates_;
   double disks_ = 0.0;
   double end_ = 0.0;     ///< of the scene's own run
   double beyond_ = 0.0;  ///< how long to wait for chaos

@@ -67,16 +67,16 @@ Eigen::Matrix2Xd any_direction(Eigen::Index disks, std::uint64_t seed, std::uint
 
 }  // namespace
 
-std::optional<Lyapunov> measure_lyapunov(const Scene& scene, const State& start, const Pace& pace,
+std::optional<Lyapunov> measure_lyapunov(const Scene& scene, const State& start, const EventRates& rates,
                                          const LyapunovOptions& options) {
   const Eigen::Index disks = start.positions.cols();
-  if (!(pace.collision_rate > 0.0) || pace.stuck || disks == 0) return std::nullopt;
+  if (!(rates.collision_rate > 0.0) || rates.stuck || disks == 0) return std::nullopt;
   if (scene.effects.dissipate()) return std::nullopt;  // it slows down: there is no steady rate
   const auto count = static_cast<double>(disks);
   const std::uint64_t asked =
       options.collisions > 0 ? options.collisions : std::max<std::uint64_t>(500'000, 100 * static_cast<std::uint64_t>(disks));
   // Few disks are normalized more rarely: what a vector grows by in 16 collisions is far from what a double can hold.
-  const double interval = std::max(1.0, 16.0 / count) / pace.collision_rate;
+  const double interval = std::max(1.0, 16.0 / count) / rates.collision_rate;
   // The exponent does not depend on the norm. In these units lengths and speeds weigh alike.
   const double length = std::sqrt(scene.box.area() / count);
   const double speed = std::sqrt(start.velocities.squaredNorm() / (2.0 * count));
@@ -88,12 +88,12 @@ std::optional<Lyapunov> measure_lyapunov(const Scene& scene, const State& start,
   simulation.record_events(true);
   std::vector<Interval> intervals;
   std::uint64_t pairs = 0;
-  // Four times as long as the pace promises, in case that it slackens; then what there is must do.
-  const double patience = 4.0 * 2.0 * static_cast<double>(asked) / count / pace.collision_rate;
+  // Four times as long as the rates promise, in case that they fall; then what there is must do.
+  const double patience = 4.0 * 2.0 * static_cast<double>(asked) / count / rates.collision_rate;
   for (double from = 0.0; pairs < asked && from < patience;) {
     if (options.proceed && !options.proceed(static_cast<double>(pairs) / static_cast<double>(asked))) return std::nullopt;
     const double to = from + interval;
-    if (simulation.run_until(to, {.collisions = pairs + stalled(simulation.disks().count())}) != StopReason::time) break;
+    if (simulation.run_until(to, {.collisions = pairs + stall_limit(simulation.disks().count())}) != StopReason::time) break;
     for (const Event& event : simulation.take_events()) flow.follow(event);
     flow.advance(to);
     const double grown = flow.norm(length, speed);

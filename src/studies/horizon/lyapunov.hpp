@@ -3,7 +3,7 @@
 
 #include "core/vec2.hpp"
 #include "effects/obstacles.hpp"
-#include "studies/horizon/pace.hpp"
+#include "studies/horizon/event_rates.hpp"
 #include "studies/horizon/report.hpp"
 
 #include <carom/box.hpp>
@@ -93,9 +93,9 @@ struct LyapunovOptions {
 /// out. The error is that of the mean over up to 32 blocks of 10 or more collisions per disk each; rates forget one
 /// another in 1 or 2, so that blocks are independent to some tenths of the error itself.
 ///
-/// Empty where `pace` has seen no collision, too few came, contacts dissipate energy, so that there is no steady rate, or the
+/// Empty where `rates` has seen no collision, too few came, contacts dissipate energy, so that there is no steady rate, or the
 /// caller said stop. Throws as make_simulation.
-std::optional<Lyapunov> measure_lyapunov(const Scene& scene, const State& start, const Pace& pace,
+std::optional<Lyapunov> measure_lyapunov(const Scene& scene, const State& start, const EventRates& rates,
                                          const LyapunovOptions& options = {});
 
 }  // namespace carom

@@ -1,8 +1,8 @@
 #include "studies/horizon/spectrum.hpp"
 
 #include "io/json.hpp"
+#include "studies/horizon/event_rates.hpp"
 #include "studies/horizon/lyapunov.hpp"
-#include "studies/horizon/pace.hpp"
 #include "text/numbers.hpp"
 
 #include <carom/simulation.hpp>
@@ -140,14 +140,14 @@ LyapunovSpectrum spectrum_of(const std::vector<Stretch>& stretches, Eigen::Index
 
 std::optional<LyapunovSpectrum> measure_spectrum(const Scene& scene, const State& start, const SpectrumOptions& options) {
   const Eigen::Index disks = start.positions.cols();
-  const Pace pace = measure_pace(scene, start);
-  if (!(pace.collision_rate > 0.0) || pace.stuck || disks == 0 || scene.effects.dissipate()) return {};
+  const EventRates rates = measure_event_rates(scene, start);
+  if (!(rates.collision_rate > 0.0) || rates.stuck || disks == 0 || scene.effects.dissipate()) return {};
   const auto count = static_cast<double>(disks);
   constexpr std::uint64_t usual = 20'000;
   const std::uint64_t asked = options.collisions > 0 ? options.collisions : usual;
   // A collision stretches and shrinks two directions. More than a few of them without a decomposition would hide the smallest
   // below the rounding of the largest.
-  const double interval = std::max(2.0, 0.5 * count) / (count * pace.collision_rate);
+  const double interval = std::max(2.0, 0.5 * count) / (count * rates.collision_rate);
 
   Simulation simulation = make_simulation(scene, start);
   TangentSpace space(scene, simulation, std::sqrt(scene.box.area() / count),
@@ -155,11 +155,11 @@ std::optional<LyapunovSpectrum> measure_spectrum(const Scene& scene, const State
   simulation.record_events(true);
   std::vector<Stretch> stretches;
   std::uint64_t pairs = 0;
-  const double patience = 4.0 * 2.0 * static_cast<double>(asked) / count / pace.collision_rate;
+  const double patience = 4.0 * 2.0 * static_cast<double>(asked) / count / rates.collision_rate;
   for (double from = 0.0; pairs < asked && from < patience;) {
     if (options.proceed && !options.proceed(static_cast<double>(pairs) / static_cast<double>(asked))) return {};
     const double to = from + interval;
-    if (simulation.run_until(to, {.collisions = pairs + stalled(simulation.disks().count())}) != StopReason::time) break;
+    if (simulation.run_until(to, {.collisions = pairs + stall_limit(simulation.disks().count())}) != StopReason::time) break;
     for (const Event& event : simulation.take_events()) space.follow(event);
     const std::uint64_t more = simulation.totals().pair - pairs;
     stretches.push_back({to - from, more, space.decompose(to)});

@@ -1,4 +1,4 @@
-#include "studies/horizon/pace.hpp"
+#include "studies/horizon/event_rates.hpp"
 
 #include "core/all_events.hpp"
 
@@ -10,15 +10,15 @@
 
 namespace carom {
 
-std::uint64_t stalled(std::uint64_t disks) { return 200'000 + 20 * disks; }
+std::uint64_t stall_limit(std::uint64_t disks) { return 200'000 + 20 * disks; }
 
-Pace measure_pace(const Scene& scene, const State& start) {
+EventRates measure_event_rates(const Scene& scene, const State& start) {
   if (start.velocities.cols() == 0) return {};
   const double fastest = start.velocities.colwise().norm().maxCoeff();
   if (!(fastest > 0.0)) return {};
   const auto disks = static_cast<double>(start.velocities.cols());
   const double passage = std::sqrt(scene.box.area() / disks) / fastest;
-  // A gas that loses energy slows down: its pace is that of the start.
+  // A gas that loses energy slows down: its rates are those of the start.
   const double enough = std::max(scene.effects.dissipate() ? 200.0 : 4000.0, 4.0 * disks);
   Simulation simulation = make_simulation(scene, start);
   const auto events = [&] { return static_cast<double>(detail::all_events(simulation.totals())); };
@@ -28,13 +28,13 @@ Pace measure_pace(const Scene& scene, const State& start) {
   for (double time = passage; time <= 4096.0 * passage * std::sqrt(disks) && events() < enough && reason == StopReason::time;
        time *= 2.0)
     reason = simulation.run_until(time, limits);
-  Pace pace;
-  pace.stuck = reason != StopReason::time && reason != StopReason::events;
-  if (!(simulation.time() > 0.0)) return pace;
-  pace.time = simulation.time();
-  pace.collision_rate = 2.0 * static_cast<double>(simulation.totals().pair) / disks / pace.time;
-  pace.events_per_time = events() / pace.time;
-  return pace;
+  EventRates rates;
+  rates.stuck = reason != StopReason::time && reason != StopReason::events;
+  if (!(simulation.time() > 0.0)) return rates;
+  rates.time = simulation.time();
+  rates.collision_rate = 2.0 * static_cast<double>(simulation.totals().pair) / disks / rates.time;
+  rates.events_per_time = events() / rates.time;
+  return rates;
 }
 
 }  // namespace carom
