@@ -5,8 +5,8 @@
 
 #include "simulation/springs.hpp"
 #include "studies/compare/compare.hpp"
+#include "studies/compare/external_trajectory.hpp"
 #include "studies/compare/files.hpp"
-#include "studies/compare/own_trajectory.hpp"
 #include "studies/compare/page.hpp"
 #include "studies/compare/side_by_side_option.hpp"
 #include "studies/compare/text.hpp"
@@ -51,7 +51,7 @@ Comparison earlier_points(const RunDirectory& directory, const std::string& key,
   return as_usage_error([&] { return load_points(directory.final_name("points.jsonl"), key); });
 }
 
-/// The user's own trajectory, against exact events.
+/// A trajectory of another program, against exact events.
 ExitCode compare_own(const CompareCommandOptions& options) {
   const ProgressMode mode = progress_mode(options.progress, options.quiet);
   const std::string& engine = checked_engine(options.scene);
@@ -66,7 +66,7 @@ ExitCode compare_own(const CompareCommandOptions& options) {
     line->update(progress);
     return !stop.made();
   });
-  std::optional<OwnTrajectory> compared;
+  std::optional<ExternalTrajectory> compared;
   if (start)
     compared = compare_trajectory(scene, *start, frames, [&](double fraction) {
       line->update("comparing frames", fraction);
@@ -78,7 +78,7 @@ ExitCode compare_own(const CompareCommandOptions& options) {
     fmt::print(stderr, "carom: {}: interrupted before the trajectory was compared\n", scene.source);
     return exit_interrupted;
   }
-  const auto written = options.json ? own_trajectory_json : own_trajectory_text;
+  const auto written = options.json ? external_trajectory_json : external_trajectory_text;
   fmt::print("{}{}", written(*compared, scene, *options.trajectory), options.json ? "\n" : "");
   return exit_done;
 }

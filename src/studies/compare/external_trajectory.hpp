@@ -15,7 +15,7 @@
 namespace carom {
 
 /// The comparison of a trajectory with the exact one at the times of its frames.
-struct OwnTrajectory {
+struct ExternalTrajectory {
   double diameter = 1.0;                       ///< mean diameter; 1 without disks
   std::vector<DistanceAt> distances;           ///< from the exact trajectory, frame by frame
   std::optional<DistanceAt> departure;         ///< the first frame farther than `parted_diameters`, rms
@@ -29,13 +29,15 @@ struct OwnTrajectory {
 
 /// Advances the scene from `start` in 113 bits to the times of the frames. Empty where `proceed`, which is told the fraction
 /// done, says stop. Throws std::invalid_argument where a first frame at t = 0 is not the start: what() names the disk.
-[[nodiscard]] std::optional<OwnTrajectory> compare_trajectory(const Scene& scene, const State& start,
-                                                              const std::vector<State>& frames,
-                                                              const std::function<bool(double)>& proceed);
+[[nodiscard]] std::optional<ExternalTrajectory> compare_trajectory(const Scene& scene, const State& start,
+                                                                   const std::vector<State>& frames,
+                                                                   const std::function<bool(double)>& proceed);
 
 /// Returns the table and the sentences that `carom compare --trajectory` prints.
-[[nodiscard]] std::string own_trajectory_text(const OwnTrajectory& compared, const Scene& scene, const std::string& file);
+[[nodiscard]] std::string external_trajectory_text(const ExternalTrajectory& compared, const Scene& scene,
+                                                   const std::string& file);
 /// Returns the same numbers as JSON; docs/output.md lists the keys.
-[[nodiscard]] std::string own_trajectory_json(const OwnTrajectory& compared, const Scene& scene, const std::string& file);
+[[nodiscard]] std::string external_trajectory_json(const ExternalTrajectory& compared, const Scene& scene,
+                                                   const std::string& file);
 
 }  // namespace carom

@@ -1,6 +1,6 @@
 // Trajectories of other programs: their files, and what is said of them against exact events.
 
-#include "studies/compare/own_trajectory.hpp"
+#include "studies/compare/external_trajectory.hpp"
 #include "studies/compare/trajectory_file.hpp"
 #include "support/child_process.hpp"
 #include "support/systems.hpp"
@@ -21,9 +21,9 @@ namespace {
 
 using ::testing::HasSubstr;
 
-class OwnTrajectoryFile : public ::testing::Test {
+class ExternalTrajectoryFile : public ::testing::Test {
  protected:
-  OwnTrajectoryFile() : scene_(gas_scene(3, 0.1, Boundary::periodic, 1)), disks_(make_simulation(scene_).disks()) {}
+  ExternalTrajectoryFile() : scene_(gas_scene(3, 0.1, Boundary::periodic, 1)), disks_(make_simulation(scene_).disks()) {}
 
   std::vector<State> read(const std::string& name, const std::string& bytes, std::optional<double> every = {}) {
     write_text(directory_.file(name), bytes);
@@ -57,7 +57,7 @@ std::string saved_array(const std::string& shape, bool fortran, const std::vecto
   return bytes;
 }
 
-TEST_F(OwnTrajectoryFile, OfAnArrayHasFramesDisksAndColumnsInBothOrders) {
+TEST_F(ExternalTrajectoryFile, OfAnArrayHasFramesDisksAndColumnsInBothOrders) {
   std::vector<double> rows, columns;
   const auto value = [](int k, int i, int c) { return 0.1 + 0.4 * k + 0.02 * i + 0.001 * c; };
   for (int k = 0; k < 2; ++k)
@@ -79,7 +79,7 @@ TEST_F(OwnTrajectoryFile, OfAnArrayHasFramesDisksAndColumnsInBothOrders) {
   }
 }
 
-TEST_F(OwnTrajectoryFile, OfATableMayHaveItsColumnsAndDisksInAnyOrder) {
+TEST_F(ExternalTrajectoryFile, OfATableMayHaveItsColumnsAndDisksInAnyOrder) {
   const std::vector<State> frames =
       read("a.csv", "x,y,time,disk\n0.5,0.25,0,1\n0.1,0.2,0,0\n0.75,1,0,2\n1,1,0.5,0\n0.5,0.5,0.5,1\n0.25,0.5,0.5,2\n");
   ASSERT_EQ(frames.size(), 2U);
@@ -89,14 +89,14 @@ TEST_F(OwnTrajectoryFile, OfATableMayHaveItsColumnsAndDisksInAnyOrder) {
   EXPECT_EQ(frames[0].velocities.cols(), 0);
 }
 
-TEST_F(OwnTrajectoryFile, MayGoOnPastPeriodicEdges) {
+TEST_F(ExternalTrajectoryFile, MayGoOnPastPeriodicEdges) {
   const double length = scene_.box.lengths().x();
   const std::string x = std::to_string(0.25 + 3.0 * length);
   const std::vector<State> frames = read("a.csv", "time,disk,x,y\n0,0," + x + ",0.5\n0,1,1,1\n0,2,2,2\n");
   EXPECT_NEAR(frames[0].positions(0, 0), 0.25, 1e-5);
 }
 
-TEST_F(OwnTrajectoryFile, IsRefusedWithItsFirstDifference) {
+TEST_F(ExternalTrajectoryFile, IsRefusedWithItsFirstDifference) {
   const std::vector<double> six(12, 0.5);
   refused("a.npy", saved_array("(2, 3, 2)", false, six), "give the time between frames, --every DT");
   refused("a.npy", saved_array("(3, 2, 2)", false, six), "its frames have 2 disks and the scene has 3", 0.1);
@@ -113,7 +113,7 @@ TEST_F(OwnTrajectoryFile, IsRefusedWithItsFirstDifference) {
   refused("a.dump", "", "a trajectory ends in .npy, .csv or .h5md");
 }
 
-TEST(OwnTrajectories, AreHeldAgainstExactEventsFrameByFrame) {
+TEST(ExternalTrajectories, AreHeldAgainstExactEventsFrameByFrame) {
   const Scene scene = gas_scene(20, 0.3, Boundary::periodic, 1);
   const State start = make_simulation(scene).state();
   const auto go_on = [](double) { return true; };
@@ -127,12 +127,12 @@ TEST(OwnTrajectories, AreHeldAgainstExactEventsFrameByFrame) {
     if (k == 4) state.velocities *= 1.1;
     moved.push_back(state);
   }
-  const std::optional<OwnTrajectory> right = compare_trajectory(scene, start, exact, go_on);
+  const std::optional<ExternalTrajectory> right = compare_trajectory(scene, start, exact, go_on);
   ASSERT_TRUE(right);
   EXPECT_FALSE(right->departure);
   EXPECT_EQ(right->overlapping, 0U);
   EXPECT_NEAR(*right->energy_drift, 0.0, 1e-13);
-  const std::optional<OwnTrajectory> wrong = compare_trajectory(scene, start, moved, go_on);
+  const std::optional<ExternalTrajectory> wrong = compare_trajectory(scene, start, moved, go_on);
   ASSERT_TRUE(wrong);
   for (int k = 0; k < 5; ++k) {
     EXPECT_NEAR(wrong->distances[static_cast<std::size_t>(k)].largest, k < 2 ? 0.0 : 0.001 * k, 1e-10);
@@ -145,7 +145,7 @@ TEST(OwnTrajectories, AreHeldAgainstExactEventsFrameByFrame) {
   EXPECT_THROW((void)compare_trajectory(scene, start, moved, go_on), std::invalid_argument);
 }
 
-TEST(OwnTrajectories, CountFramesInWhichDisksOverlap) {
+TEST(ExternalTrajectories, CountFramesInWhichDisksOverlap) {
   const Scene scene = gas_scene(20, 0.3, Boundary::periodic, 1);
   const State start = make_simulation(scene).state();
   State later = start;

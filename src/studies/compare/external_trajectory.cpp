@@ -1,4 +1,4 @@
-#include "studies/compare/own_trajectory.hpp"
+#include "studies/compare/external_trajectory.hpp"
 
 #include "io/json.hpp"
 #include "neighbours/disks_at_rest.hpp"
@@ -32,12 +32,12 @@ void require_start(const Box& box, const State& frame, const State& start, doubl
 
 }  // namespace
 
-std::optional<OwnTrajectory> compare_trajectory(const Scene& scene, const State& start, const std::vector<State>& frames,
-                                                const std::function<bool(double)>& proceed) {
+std::optional<ExternalTrajectory> compare_trajectory(const Scene& scene, const State& start, const std::vector<State>& frames,
+                                                     const std::function<bool(double)>& proceed) {
   Simulation exact = make_simulation(scene, start, "textbook-quad");
   const Disks& disks = exact.disks();
   const auto count = static_cast<double>(disks.count());
-  OwnTrajectory result;
+  ExternalTrajectory result;
   if (count > 0.0) result.diameter = disks.mean_diameter();
   require_start(scene.box, frames.front(), start, result.diameter);
   for (std::size_t k = 0; k < frames.size(); ++k) {
@@ -67,7 +67,7 @@ std::optional<OwnTrajectory> compare_trajectory(const Scene& scene, const State&
   return result;
 }
 
-std::string own_trajectory_text(const OwnTrajectory& of, const Scene& scene, const std::string& file) {
+std::string external_trajectory_text(const ExternalTrajectory& of, const Scene& scene, const std::string& file) {
   std::string text =
       fmt::format("{} against exact events (113 bits) from the start of {}\n\n{}\n  distances in mean diameters\n\n", file,
                   scene.source, distance_table(of.distances, of.diameter));
@@ -85,7 +85,7 @@ std::string own_trajectory_text(const OwnTrajectory& of, const Scene& scene, con
   return text;
 }
 
-std::string own_trajectory_json(const OwnTrajectory& of, const Scene& scene, const std::string& file) {
+std::string external_trajectory_json(const ExternalTrajectory& of, const Scene& scene, const std::string& file) {
   detail::Json json;
   json["carom"] = detail::build_json();
   json["scene"] = scene.source;
