@@ -41,9 +41,9 @@ double missed_at(double w) {
 
 }  // namespace
 
-double missed_fraction(double step, Notices notices) {
+double missed_fraction(double step, Detects detects) {
   // Contact lasts 2 sigma c / g, approach half as long.
-  const double per_speed = notices == Notices::contact ? step / 2.0 : step;
+  const double per_speed = detects == Detects::contact ? step / 2.0 : step;
   return over_speeds(1.0 / per_speed, [&](double g) { return missed_at(g * per_speed); });
 }
 
@@ -61,7 +61,7 @@ double mean_depth(double step) {
             ThirtyPoints::integrate(over_chords, cut_short, std::acos(0.0))) /
            (g * step);
   };
-  return over_speeds(1.0 / step, depth_of) / (1.0 - missed_fraction(step, Notices::approaching));
+  return over_speeds(1.0 / step, depth_of) / (1.0 - missed_fraction(step, Detects::approaching));
 }
 
 double bias_of_Z(double step, double eta) {

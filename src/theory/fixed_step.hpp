@@ -4,15 +4,15 @@
 
 namespace carom::theory {
 
-/// Which pairs in contact a method takes for colliding.
-enum class Notices {
+/// The overlapping pairs that a method detects as collisions.
+enum class Detects {
   contact,     ///< all (naive)
   approaching  ///< approaching pairs only (guarded)
 };
 
 /// Returns the fraction of collisions that a step passes over. `step` = v_T dt / sigma with v_T = sqrt(kT / m). For small steps
 /// step^2 / 4 where contact is detected, step^2 where approach is.
-[[nodiscard]] double missed_fraction(double step, Notices notices);
+[[nodiscard]] double missed_fraction(double step, Detects detects);
 
 /// Mean of (sigma - |r|) / sigma at the step at which a collision is detected, of pairs that approach. For small steps
 /// (sqrt(pi) / 2) step.

@@ -246,7 +246,7 @@ class PhysicsIsolatedPair : public ::testing::TestWithParam<double> {
 
 TEST_P(PhysicsIsolatedPair, GuardedStepsMissAndFindItAsDerived) {
   const Outcome outcome = outcome_of("guarded");
-  expect_missed(outcome, theory::missed_fraction(GetParam(), theory::Notices::approaching));
+  expect_missed(outcome, theory::missed_fraction(GetParam(), theory::Detects::approaching));
   expect_depth(outcome, theory::mean_depth(GetParam()));
 }
 
@@ -258,13 +258,13 @@ TEST_P(PhysicsIsolatedPair, GridStepsDoWhatGuardedOnesDo) {
 
 TEST_P(PhysicsIsolatedPair, NaiveStepsMissOnlyWhatIsNeverInContactAtAStep) {
   const Outcome outcome = outcome_of("naive-edge");
-  expect_missed(outcome, theory::missed_fraction(GetParam(), theory::Notices::contact));
+  expect_missed(outcome, theory::missed_fraction(GetParam(), theory::Detects::contact));
   expect_depth(outcome, theory::mean_depth(GetParam()));  // what it sends back while parting is not among the found
 }
 
 TEST_P(PhysicsIsolatedPair, BacktrackStepsMissOnlyWhatIsNeverInContactAtAStepAndTurnTheRestAtContact) {
   const Outcome outcome = outcome_of("backtrack");
-  expect_missed(outcome, theory::missed_fraction(GetParam(), theory::Notices::contact));
+  expect_missed(outcome, theory::missed_fraction(GetParam(), theory::Detects::contact));
   for (const double depth : outcome.depths) ASSERT_LT(depth, 1e-12);
 }
 

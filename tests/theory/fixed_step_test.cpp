@@ -17,7 +17,7 @@
 namespace carom::test {
 namespace {
 
-using theory::Notices;
+using theory::Detects;
 
 const double root_pi = std::sqrt(std::numbers::pi);
 
@@ -69,14 +69,14 @@ TEST(FixedStepTheory, StepsThatNoticeApproachMissTheSquareOfTheStep) {
   // Below w = 1e-3 the code leaves out w^4 / 40, at most 2.5e-14.
   for (const double step : {1e-5, 1e-4, 1e-3, 1e-2, 3e-2}) {
     const double law = step * step + 1.5 * std::pow(step, 4);
-    EXPECT_NEAR(theory::missed_fraction(step, Notices::approaching), law, 8.0 * std::pow(step, 6) + 2.5e-14) << step;
+    EXPECT_NEAR(theory::missed_fraction(step, Detects::approaching), law, 8.0 * std::pow(step, 6) + 2.5e-14) << step;
   }
 }
 
 TEST(FixedStepTheory, StepsThatNoticeContactMissAQuarterOfThat) {
   for (const double step : {1e-5, 1e-4, 1e-3, 1e-2, 3e-2}) {  // contact lasts twice as long as approach: the law of half the step
     const double half = step / 2.0, law = half * half + 1.5 * std::pow(half, 4);
-    EXPECT_NEAR(theory::missed_fraction(step, Notices::contact), law, 8.0 * std::pow(half, 6) + 2.5e-14) << step;
+    EXPECT_NEAR(theory::missed_fraction(step, Detects::contact), law, 8.0 * std::pow(half, 6) + 2.5e-14) << step;
     EXPECT_NEAR(law, step * step / 4.0, 0.1 * std::pow(step, 4));
   }
 }
@@ -95,9 +95,9 @@ TEST(FixedStepTheory, MissedFractionsAreThoseOfPlainSums) {
   for (const double step : {0.1, 0.3, 0.7, 1.0, 3.0}) {
     SCOPED_TRACE(step);
     expect_sums(
-        theory::missed_fraction(step, Notices::approaching), [&](int n) { return missed_by_sums(n, step, 1.0); }, 150);
+        theory::missed_fraction(step, Detects::approaching), [&](int n) { return missed_by_sums(n, step, 1.0); }, 150);
     expect_sums(
-        theory::missed_fraction(step, Notices::contact), [&](int n) { return missed_by_sums(n, step, 2.0); }, 150);
+        theory::missed_fraction(step, Detects::contact), [&](int n) { return missed_by_sums(n, step, 2.0); }, 150);
   }
 }
 
@@ -115,8 +115,8 @@ TEST(FixedStepTheory, HugeStepsMissAllButTheShareOfTheirTimeThatACollisionTakes)
   // than 2 / step, eight times that), and what the quadrature makes of that corner is no more than as much again.
   for (const double step : {30.0, 1e3, 1e6}) {
     const double corner = 0.222 / std::pow(step, 3) + 1e-15;
-    EXPECT_NEAR(1.0 - theory::missed_fraction(step, Notices::approaching), root_pi / (4.0 * step), corner) << step;
-    EXPECT_NEAR(1.0 - theory::missed_fraction(step, Notices::contact), root_pi / (2.0 * step), 8.0 * corner) << step;
+    EXPECT_NEAR(1.0 - theory::missed_fraction(step, Detects::approaching), root_pi / (4.0 * step), corner) << step;
+    EXPECT_NEAR(1.0 - theory::missed_fraction(step, Detects::contact), root_pi / (2.0 * step), 8.0 * corner) << step;
   }
 }
 
@@ -132,9 +132,9 @@ TEST(FixedStepTheory, WhatHugeStepsFindIsAThirdDeep) {
 TEST(FixedStepTheory, LongerStepsMissMore) {
   double before = 0.0;
   for (double step = 1e-3; step < 100.0; step *= 1.3) {
-    const double missed = theory::missed_fraction(step, Notices::approaching);
+    const double missed = theory::missed_fraction(step, Detects::approaching);
     EXPECT_GT(missed, before);
-    EXPECT_LT(theory::missed_fraction(step, Notices::contact), missed);
+    EXPECT_LT(theory::missed_fraction(step, Detects::contact), missed);
     EXPECT_LT(missed, 1.0);
     before = missed;
   }

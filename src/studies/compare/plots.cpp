@@ -228,7 +228,7 @@ Plot faults_of_steps(const Comparison& comparison, const std::vector<MethodSumma
   plot.caption += " The black dashed line is theory for an isolated pair in a dilute gas.";
   const double speed = comparison.plan.thermal_speed / comparison.plan.sigma;
   plot.series.push_back(dashed_line(comparison, "missed by guarded steps, isolated pair", [&](double dt) {
-    return theory::missed_fraction(speed * dt, theory::Notices::approaching);
+    return theory::missed_fraction(speed * dt, theory::Detects::approaching);
   }));
   return plot;
 }
