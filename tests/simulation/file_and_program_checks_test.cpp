@@ -644,19 +644,19 @@ std::vector<Case> cases() {
   };
 }
 
-class BothDoors : public testing::TestWithParam<Case> {};
+class FileAndProgramChecks : public testing::TestWithParam<Case> {};
 
-template <class Door>
-std::string what_is_refused(Door&& door) {
+template <class Call>
+std::string what_is_refused(Call&& call) {
   try {
-    door();
+    call();
   } catch (const SceneError& error) {
     return error.what();
   }
   return "(accepted)";
 }
 
-TEST_P(BothDoors, RefuseTheSameInTheSameWords) {
+TEST_P(FileAndProgramChecks, RefuseTheSameInTheSameWords) {
   const Case& one = GetParam();
   const std::string text = base_text(one.boundary);
   Scene scene = parse_scene(text);
@@ -684,10 +684,10 @@ TEST_P(BothDoors, RefuseTheSameInTheSameWords) {
   EXPECT_EQ(what_is_refused([&] { (void)restore_simulation(scene, back); }), sentence);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, BothDoors, testing::ValuesIn(cases()),
+INSTANTIATE_TEST_SUITE_P(All, FileAndProgramChecks, testing::ValuesIn(cases()),
                          [](const testing::TestParamInfo<Case>& one) { return one.param.name; });
 
-TEST(OneDoor, RefusesStatesOfAnotherSize) {
+TEST(ProgramChecks, RefusesStatesOfAnotherSize) {
   const Scene scene = parse_scene(base_text("walls"));
   const auto refused = [&](const std::function<void(State&)>& change) {
     State start = make_simulation(scene).state();
@@ -707,7 +707,7 @@ TEST(OneDoor, RefusesStatesOfAnotherSize) {
 }
 
 /// What no file can say.
-TEST(OneDoor, RefusesListsOfTheWrongLengthAndNumbersThatAreNone) {
+TEST(ProgramChecks, RefusesListsOfTheWrongLengthAndNumbersThatAreNone) {
   const Scene sound = parse_scene(base_text("walls"));
   const auto refused = [&](const std::function<void(Scene&)>& change) {
     Scene scene = sound;
@@ -731,7 +731,7 @@ TEST(OneDoor, RefusesListsOfTheWrongLengthAndNumbersThatAreNone) {
 }
 
 /// What only files must say.
-TEST(OneDoor, LeavesNamesAndTheEndToAProgram) {
+TEST(ProgramChecks, LeavesNamesAndTheEndToAProgram) {
   Scene scene = parse_scene(base_text("walls"));
   scene.species[0].name = scene.species[1].name = "";
   scene.run.time.reset();

@@ -1,4 +1,5 @@
-// Collisions that the engine tells of itself, against those that the event log and a copy of all velocities give: the same bits.
+// Records of collisions that the engine keeps itself, against those that the event log and a copy of all velocities give: the
+// same bits.
 
 #include "observe/collision_stream.hpp"
 #include "support/scenes.hpp"
@@ -51,7 +52,7 @@ std::vector<Scene> scenes_that_tell() {
   return scenes;
 }
 
-TEST(ToldCollisions, AreThoseOfTheEventLog) {
+TEST(CollisionRecordsOfRuns, AreThoseOfTheEventLog) {
   for (const Scene& scene : scenes_that_tell()) {
     Simulation simulation = make_simulation(scene);
     ASSERT_TRUE(simulation.supports_collision_records());
@@ -73,7 +74,7 @@ TEST(ToldCollisions, AreThoseOfTheEventLog) {
   }
 }
 
-TEST(ToldCollisions, ListeningDoesNotChangeTheRun) {
+TEST(CollisionRecordsOfRuns, ListeningDoesNotChangeTheRun) {
   const Scene scene = scenes_that_tell()[3];
   const auto end_of = [&](bool listens) {
     Simulation simulation = make_simulation(scene);
@@ -87,7 +88,7 @@ TEST(ToldCollisions, ListeningDoesNotChangeTheRun) {
   EXPECT_EQ(heard.velocities, unheard.velocities);
 }
 
-TEST(ToldCollisions, AllUpToASampleComeBeforeIt) {
+TEST(CollisionRecordsOfRuns, AllUpToASampleComeBeforeIt) {
   Scene scene = gas_scene(30, 0.5, Boundary::periodic);
   scene.run.time = 5.0;
   scene.run.sample_every = 0.25;
@@ -101,7 +102,7 @@ TEST(ToldCollisions, AllUpToASampleComeBeforeIt) {
   EXPECT_GT(told, 100U);
 }
 
-TEST(ToldCollisions, CanBeReadLater) {
+TEST(CollisionRecordsOfRuns, CanBeReadLater) {
   Scene scene = gas_scene(40, 0.5, Boundary::periodic);
   scene.run.collisions = 500;
   std::vector<PairCollision> at_once, later, some;
@@ -126,7 +127,7 @@ TEST(ToldCollisions, CanBeReadLater) {
   expect_same(later, at_once);
 }
 
-TEST(ToldCollisions, AreWrittenWhereTheListenerWantsThem) {
+TEST(CollisionRecordsOfRuns, AreWrittenWhereTheListenerWantsThem) {
   Scene scene = gas_scene(40, 0.5, Boundary::periodic);
   scene.run.collisions = 500;
   std::vector<CollisionRecord> in_order(500), some(7);
@@ -161,7 +162,7 @@ TEST(ToldCollisions, AreWrittenWhereTheListenerWantsThem) {
   expect_same(listen(Room([] { return std::span<CollisionRecord>(); })), copied);
 }
 
-TEST(ToldCollisions, BelongToTheListenerOnceTheyAreTold) {
+TEST(CollisionRecordsOfRuns, BelongToTheListenerOnceTheyAreTold) {
   Scene scene = gas_scene(40, 0.5, Boundary::periodic);
   scene.run.collisions = 500;
   const auto log_of = [&](RunHooks hooks) {
@@ -184,7 +185,7 @@ TEST(ToldCollisions, BelongToTheListenerOnceTheyAreTold) {
   }
 }
 
-TEST(ToldCollisions, WhatAsksForRoomMayThrow) {
+TEST(CollisionRecordsOfRuns, WhatAsksForRoomMayThrow) {
   Scene scene = gas_scene(40, 0.5, Boundary::periodic);
   scene.run.collisions = 1'000;
   Simulation simulation = make_simulation(scene);
@@ -195,7 +196,7 @@ TEST(ToldCollisions, WhatAsksForRoomMayThrow) {
   EXPECT_TRUE(simulation.check_invariants().empty());
 }
 
-TEST(ToldCollisions, ThereAreNoneWithoutDisks) {
+TEST(CollisionRecordsOfRuns, ThereAreNoneWithoutDisks) {
   Scene scene = gas_scene(4, 0.5, Boundary::walls);
   scene.species.front().count = 0;
   scene.run.time = 1.0;
@@ -205,7 +206,7 @@ TEST(ToldCollisions, ThereAreNoneWithoutDisks) {
   EXPECT_EQ(run_schedule(simulation, hooks).stopped, StopReason::time);
 }
 
-TEST(ToldCollisions, WhatAListenerThrowsComesOutBetweenTwoEvents) {
+TEST(CollisionRecordsOfRuns, WhatAListenerThrowsComesOutBetweenTwoEvents) {
   Scene scene = gas_scene(40, 0.5, Boundary::periodic);
   scene.run.collisions = 1'000;
   Simulation simulation = make_simulation(scene);
@@ -222,7 +223,7 @@ TEST(ToldCollisions, WhatAListenerThrowsComesOutBetweenTwoEvents) {
   EXPECT_EQ(run_schedule(simulation).stopped, StopReason::collisions) << "nobody listens any more";
 }
 
-TEST(ToldCollisions, AreNotToBeHadWhereVelocitiesDoNotTellEverything) {
+TEST(CollisionRecordsOfRuns, AreNotToBeHadWhereVelocitiesDoNotTellEverything) {
   const auto tells = [](auto change, const std::string& engine = "auto") {
     Scene scene = gas_scene(30, 0.3, Boundary::walls);
     change(scene);
