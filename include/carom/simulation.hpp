@@ -179,8 +179,8 @@ class Simulation {
   /// engine with every effect calls the function at every collision of a pair. The function must not call the simulation. What it
   /// throws comes out of the run, which then stands before that collision; so does a std::domain_error where the velocities are
   /// not finite, or leave the disks approaching each other. Observables that follow collisions support the rules of scenes alone.
-  /// Throws std::invalid_argument where disks grow, or the engine that was asked for
-  /// does not call such a rule; std::logic_error as set_effects().
+  /// Throws std::invalid_argument where disks grow, or the engine that was asked for does not call such a rule; std::logic_error
+  /// as set_effects().
   void set_collision_rule(CollisionFunction rule);
   /// Returns whether a rule of set_collision_rule() acts.
   [[nodiscard]] bool has_collision_rule() const;

@@ -154,6 +154,7 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
   void put_Z(Measurement& found, const char* name, const Series& series, double offset, const std::string& why_not) const {
     Scalar scalar{.name = name};
     if (why_not.empty()) fill(series, scalar, offset);
+    // Z - 1 is a sum over collisions; of none it is exactly zero, and its error is unknown.
     if (offset == 1.0 && scalar.value == offset) scalar = {.name = name, .note = "no pair of disks has collided"};
     if (!scalar.value && scalar.note.empty()) scalar.note = why_not.empty() ? "nothing was measured" : why_not;
     found.scalars.push_back(std::move(scalar));

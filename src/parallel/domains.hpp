@@ -324,14 +324,14 @@ class Domains {
   std::vector<double> seconds_;                        ///< processor time of each domain since all met
   std::vector<double> epoch_seconds_;                  ///< the same in this epoch
   std::vector<double> cost_of_disk_;  ///< processor time of each disk of a domain in the last epoch; empty where not measured
-  static constexpr int least_unbalanced = 4;
+  static constexpr int least_patience = 4;
   int unbalanced_for_ = 0;                     ///< epochs
-  int most_unbalanced_ = least_unbalanced;     ///< epochs after which borders move
+  int balance_patience_ = least_patience;      ///< unbalanced epochs in a row after which borders move
   std::vector<SpeedSummary> speed_summaries_;  ///< by domain
   std::vector<std::uint64_t> longest_lists_;
   std::optional<Instant> alone_until_;               ///< the whole engine goes on until then
   Instant last_void_epoch_{-infinity<double>, 0.0};  ///< the last epoch with a window that was void
-  int void_in_a_row_ = 0;                            ///< windows since one was right
+  int void_in_a_row_ = 0;                            ///< void windows since the last that was right
 
   double now_ = 0.0;     ///< since the epoch
   double window_ = 0.0;  ///< length of the next
@@ -358,7 +358,7 @@ class Domains {
   bool at_limit_ = false;                           ///< the last events before the limit were processed one by one
   double stepped_to_ = 0.0;                         ///< time of the last of them
   std::uint64_t events_at_window_begin_ = 0;        ///< events when the window began
-  /// Events and epochs of this call of run_until(), also those of void windows: in which time passes outside.
+  /// Events and epochs that this call of run_until() has computed, those of void windows included: what `event_limit` bounds.
   std::uint64_t work_ = 0;
   Next next_ = Next::window;
   double half_width_ = 0.0;

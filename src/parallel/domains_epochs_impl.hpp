@@ -129,10 +129,10 @@ bool Domains<Impact, Layout, World>::note_imbalance() {
   for (const Facts& facts : facts_) all += facts.epoch_seconds, longest = std::max(longest, facts.epoch_seconds);
   const bool unbalanced = longest * static_cast<double>(facts_.size()) > 1.25 * all;
   unbalanced_for_ = unbalanced ? unbalanced_for_ + 1 : 0;
-  if (!unbalanced) most_unbalanced_ = least_unbalanced;
-  if (unbalanced_for_ >= most_unbalanced_) {
+  if (!unbalanced) balance_patience_ = least_patience;
+  if (unbalanced_for_ >= balance_patience_) {
     unbalanced_for_ = 0;
-    most_unbalanced_ = std::min(2 * most_unbalanced_, 1024);
+    balance_patience_ = std::min(2 * balance_patience_, 1024);
     cost_of_disk_.clear();
     for (const Facts& facts : facts_)
       cost_of_disk_.push_back((facts.epoch_seconds + 1e-9) / static_cast<double>(facts.homes + 1));

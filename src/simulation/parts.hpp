@@ -79,6 +79,8 @@ struct Simulation::Parts {
   /// The time at which a sample of time `when` is taken: that of the next change where the two are equal to rounding, as 3 * 0.1
   /// and 0.3 are. The change comes after the sample.
   [[nodiscard]] Instant before_change(const Instant& when) const { return carom::before_change(next_change(), when); }
+  /// See Simulation::reset_clock().
+  void reset_clock();
   /// Makes the next of the scene's changes, at now. Throws SceneError where it cannot be made; then all is as it was.
   void make_change();
   /// Has the engine compute on the threads of all ranks. The other ranks are in serve_ranks(), and serve no simulation.

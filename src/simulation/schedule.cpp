@@ -54,14 +54,17 @@ bool ends_by_growth(const std::optional<Growth>& growth) { return growth && grow
 
 class Schedule {
  public:
-  /// `make_change` makes the next of the scene's changes, which leaves another engine in `engine`.
+  /// `reset_clock` does as Simulation::reset_clock(). `make_change` makes the next of the scene's changes, which leaves another
+  /// engine in `engine`.
   Schedule(const Scene& scene, const std::unique_ptr<detail::AnyEngine>& engine, const Disks& disks, double smallest_radius,
-           bool own_rule, const RunHooks& hooks, std::function<void()> make_change, bool& clock_began)
+           bool own_rule, const RunHooks& hooks, std::function<void()> reset_clock, std::function<void()> make_change,
+           bool& clock_began)
       : scene_(scene),
         run_(scene.run),
         effects_(scene.effects),
         engine_(engine),
         hooks_(hooks),
+        reset_clock_(std::move(reset_clock)),
         make_change_(std::move(make_change)),
         clock_began_(clock_began),
         sample_collisions_(run_.sample_every_collisions.value_or(no_limit)),
@@ -125,7 +128,7 @@ class Schedule {
         run_.equilibrate->pair_collisions(static_cast<std::int64_t>(disks_.count())).value_or(no_limit);
     end_ = {until, collisions};
     if (!advance(until, collisions) && result_.stopped != StopReason::collisions) return false;
-    engine().reset_clock();
+    reset_clock_();
     standstill_.begin(engine());
     moving_as_one_.emplace(engine(), scene_, disks_, block_collisions_);
     equilibrating_ = false;
@@ -417,7 +420,7 @@ class Schedule {
   const Effects& effects_;
   const std::unique_ptr<detail::AnyEngine>& engine_;
   const RunHooks& hooks_;
-  const std::function<void()> make_change_;
+  const std::function<void()> reset_clock_, make_change_;
   bool& clock_began_;
   const std::uint64_t sample_collisions_;  ///< from one sample to the next; no_limit where they are not counted so
   const std::uint64_t block_collisions_;
@@ -474,8 +477,8 @@ RunResult run_schedule(Simulation& simulation, const RunHooks& hooks) {
   } const at_work(parts.scheduled);
   parts.recording = false;
   return Schedule(
-      parts.scene, parts.engine, parts.disks, parts.smallest_radius, parts.has_rule(), hooks, [&parts] { parts.make_change(); },
-      parts.clock_began)();
+      parts.scene, parts.engine, parts.disks, parts.smallest_radius, parts.has_rule(), hooks, [&parts] { parts.reset_clock(); },
+      [&parts] { parts.make_change(); }, parts.clock_began)();
 }
 
 }  // namespace carom

@@ -238,13 +238,15 @@ ThreadCounts Simulation::Parts::thread_counts() const {
   return counts;
 }
 
-void Simulation::reset_clock() {
-  parts_->threads_before.events_alone += parts_->events_alone();
-  parts_->engine->reset_clock();
-  parts_->alone_from = 0;
-  parts_->standstill.reset();
-  parts_->clock_began = true;
+void Simulation::Parts::reset_clock() {
+  threads_before.events_alone += events_alone();
+  engine->reset_clock();
+  alone_from = 0;
+  standstill.reset();
+  clock_began = true;
 }
+
+void Simulation::reset_clock() { parts_->reset_clock(); }
 void Simulation::record_events(bool on) { parts_->engine->record_events(parts_->recording = on); }
 std::vector<Event> Simulation::take_events() {
   std::vector<Event> events;

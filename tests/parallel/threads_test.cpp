@@ -334,6 +334,40 @@ TEST(Threads, CountWhatTheyTookThroughChanges) {
   EXPECT_EQ(shared.thread_counts().domains, 1U) << "they are those since set_threads()";
 }
 
+/// While shear acts one core computes all: what is left of the equilibration, and the run until it stops.
+TEST(Threads, CountWhatOneCoreComputesInARunThatGoesOnWhileItEquilibrates) {
+  Scene scene = plain_gas(4000, 0.5, Boundary::periodic);
+  scene.effects.shear = Shear{.rate = 0.01};
+  scene.changes = {{0.5, SetKeys{{"shear.rate=0"}}}};
+  scene.run.equilibrate = Run::Equilibrate{.collisions_per_disk = 8.0};
+  scene.run.time = 1.0;
+  Simulation stopped = make_simulation(scene), equilibrated = make_simulation(scene);
+  equilibrated.run_until(1e6, {.collisions = 16'000});
+  std::stringstream of_simulation, of_schedule;
+  std::uint64_t saved_at = 0;
+  RunHooks hooks;
+  hooks.checkpoint = [&](const SavingMoment& moment) {
+    if (all_events(stopped) == 0) return;
+    ASSERT_TRUE(moment.progress.equilibrating);
+    stopped.save(of_simulation);
+    moment.save(of_schedule);
+    saved_at = all_events(stopped);
+    throw 0;
+  };
+  EXPECT_THROW(run_schedule(stopped, hooks), int);
+  ASSERT_GT(saved_at, 0U);
+  Simulation resumed = restore_simulation(scene, of_simulation);
+  resumed.set_threads({.domains = 4});
+  hooks = {};
+  hooks.resume = &of_schedule;
+  int left = 1000;
+  hooks.stop_when = [&](const Event&) { return --left == 0; };
+  EXPECT_EQ(run_schedule(resumed, hooks).stopped, StopReason::condition);
+  const ThreadCounts counts = resumed.thread_counts();
+  EXPECT_EQ(counts.events, 0U);
+  EXPECT_EQ(counts.events_alone, all_events(equilibrated) - saved_at + all_events(resumed));
+}
+
 TEST(Threads, RunASchedule) {
   Scene scene = plain_gas(4000, 0.5, Boundary::periodic);
   scene.run.equilibrate = Run::Equilibrate{.collisions_per_disk = 4.0};
