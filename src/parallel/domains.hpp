@@ -144,7 +144,8 @@ class Domains {
   /// The next event of all, where a run goes to an exact number of collisions: what a rank has to offer, and what rank 0 chooses.
   struct NextEvent {
     double time = infinity<double>;
-    std::uint64_t pairs = 0;
+    std::uint64_t pairs = 0;   ///< so far, counted where disks are at home
+    std::uint64_t events = 0;  ///< of any kind, likewise
     std::uint64_t domain = none;
     bool blocked = false;  ///< the event that was chosen last cannot happen in a domain alone
 
@@ -214,6 +215,7 @@ class Domains {
   void read_messages(std::size_t d);
   void count_collisions();
   void step_to_limit();
+  [[nodiscard]] bool is_last_tied() const;
   void decide();
   void begin_epoch_next();
   void adapt_window(double margin, bool whole_window);
@@ -357,6 +359,7 @@ class Domains {
   bool stepping_ = false;                           ///< the last events before it are processed one by one
   bool at_limit_ = false;                           ///< the last events before the limit were processed one by one
   double stepped_to_ = 0.0;                         ///< time of the last of them
+  std::uint64_t events_before_last_ = 0;            ///< NextEvent::events when the first event at that time was chosen
   std::uint64_t events_at_window_begin_ = 0;        ///< events when the window began
   /// Events and epochs that this call of run_until() has computed, those of void windows included: what `event_limit` bounds.
   std::uint64_t work_ = 0;

@@ -92,6 +92,7 @@ void Domains<Impact, Layout, World>::step_to_limit() {
     mine.blocked = blocked;
     for (std::size_t d = first_domain_; d < end_domain_; ++d) {
       mine.pairs += domains_[d]->counts().pair;
+      mine.events += detail::all_events(domains_[d]->counts());
       if (const double next = domains_[d]->next_time(); next < mine.time) mine.time = next, mine.domain = d;
     }
     const NextEvent chosen = choose(mine, before);
@@ -107,6 +108,12 @@ void Domains<Impact, Layout, World>::step_to_limit() {
   }
 }
 
+/// Returns whether other events happened at the time of the last one that was chosen.
+template <class Impact, class Layout, class World>
+bool Domains<Impact, Layout, World>::is_last_tied() const {
+  return detail::all_events(counts()) - detail::all_events(whole_.totals_) > events_before_last_ + 1;
+}
+
 /// Chooses the next event from what all ranks offer: none at the limit of collisions, and at the end of the window.
 template <class Impact, class Layout, class World>
 typename Domains<Impact, Layout, World>::NextEvent Domains<Impact, Layout, World>::choose(const NextEvent& mine,
@@ -119,6 +126,7 @@ typename Domains<Impact, Layout, World>::NextEvent Domains<Impact, Layout, World
     for (std::size_t rank = 1; rank < gathered.size(); ++rank) {
       const auto other = PacketReader(gathered[rank]).take<NextEvent>();
       all.pairs += other.pairs;
+      all.events += other.events;
       all.blocked = all.blocked || other.blocked;
       if (other.time < all.time) all.time = other.time, all.domain = other.domain;
     }
@@ -133,6 +141,7 @@ typename Domains<Impact, Layout, World>::NextEvent Domains<Impact, Layout, World
       window_end_ = longest_end_;
       all.domain = NextEvent::none;
     }
+    if (all.domain != NextEvent::none && all.time > stepped_to_) events_before_last_ = all.events;
     stepped_to_ = all.time;
     all.time = window_end_;
   }
@@ -216,7 +225,8 @@ void Domains<Impact, Layout, World>::decide() {
   const std::uint64_t pairs = counts().pair;
   const double length = window_end_ - now_;
   const double rate = length > 0.0 ? static_cast<double>(pairs - pairs_at_window_begin_) / length : 0.0;
-  const bool missed = pairs > pair_limit_ || (pairs == pair_limit_ && !at_limit_);  // the time of the last collision is not known
+  // The time of the last collision is not known; or it is not the only event at its time, and one core knows which comes first.
+  const bool missed = pairs > pair_limit_ || (pairs == pair_limit_ && (!at_limit_ || is_last_tied()));
   if (has_failed()) {
     next_ = Next::failed;
   } else if (stopped || nearest <= allowed || homes != whole_.lines_.size() || missed) {

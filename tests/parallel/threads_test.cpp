@@ -244,6 +244,40 @@ TEST(Threads, StopAtAnExactNumberOfCollisions) {
   }
 }
 
+/// Two disks meet at time 1 while a third comes to a wall, in another domain: one core stops between the two events, or behind
+/// both. Disks at rest make neighbourhoods narrow.
+TEST(Threads, StopAtACollisionThatIsNotAloneAtItsTime) {
+  struct Third {
+    Eigen::Vector2d position, velocity;
+  };
+  std::uint64_t walls = 0;
+  for (const double sign : {1.0, -1.0})
+    for (const Third& third :
+         {Third{{18.5, 4.0}, {1.0, 0.0}}, Third{{10.0, 1.5}, {0.0, -1.0}}, Third{{10.0, 22.5}, {0.0, 1.0}}}) {
+      Scene scene = gas_scene(203, 0.1, Boundary::walls);
+      scene.box = {{-20.0, 0.0}, {20.0, 24.0}, {Boundary::walls, Boundary::walls}};
+      std::vector<Eigen::Vector2d> positions = {{-10.0, 4.0}, {-7.0, 4.0}, third.position};
+      std::vector<Eigen::Vector2d> velocities = {{1.0, 0.0}, {-1.0, 0.0}, third.velocity};
+      for (int i = 0; i < 200; ++i) {
+        positions.emplace_back(-18.0 + 1.5 * (i % 25), 7.0 + 1.5 * (i / 25));
+        velocities.emplace_back(0.0, 0.0);
+      }
+      for (Eigen::Vector2d& position : positions) position.x() *= sign;
+      for (Eigen::Vector2d& velocity : velocities) velocity.x() *= sign;
+      scene.species.front().positions = ListedPositions{positions};
+      scene.species.front().velocities = ListedVelocities{velocities};
+      Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+      shared.set_threads({.domains = 2});
+      for (Simulation* simulation : {&alone, &shared})
+        EXPECT_EQ(simulation->run_until(10.0, {.collisions = 1}), StopReason::collisions);
+      EXPECT_EQ(alone.time(), 1.0);
+      walls += alone.counts().wall;
+      expect_same(alone, shared, "third at " + std::to_string(sign * third.position.x()));
+    }
+  EXPECT_GT(walls, 0U) << "the wall comes first in some";
+  EXPECT_LT(walls, 6U) << "and second in others";
+}
+
 TEST(Threads, StopAtAnExactNumberOfEvents) {
   const Scene scene = plain_gas(4000, 0.5, Boundary::walls);
   Simulation alone = make_simulation(scene), shared = make_simulation(scene);
