@@ -6,7 +6,6 @@
 
 #include "observe/area_in_circle.hpp"
 #include "observe/blocking.hpp"
-#include "observe/geometry.hpp"
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"
 #include "observe/wall_reach.hpp"

@@ -3,7 +3,6 @@
 
 #include "scene/effect_traits.hpp"
 
-#include <carom/box.hpp>
 #include <carom/scene.hpp>
 
 #include <string>

@@ -3,7 +3,6 @@
 #include "core/wide.hpp"
 #include "observe/energy.hpp"
 #include "scene/mean_flow.hpp"
-#include "scene/walls.hpp"
 
 #include <algorithm>
 #include <array>

@@ -6,7 +6,6 @@
 // with time, and its error is that of two states.
 
 #include "observe/energy.hpp"
-#include "observe/geometry.hpp"
 #include "observe/mechanics.hpp"
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"

@@ -1,6 +1,5 @@
 #include "terminal/picture.hpp"
 
-#include "observe/geometry.hpp"
 #include "scene/fixed_shapes.hpp"
 
 #include <algorithm>

@@ -5,7 +5,6 @@
 #include "theory/equation_of_state.hpp"
 #include "theory/goodness_of_fit.hpp"
 #include "theory/kinetic.hpp"
-#include "theory/microcanonical.hpp"
 
 #include <fmt/format.h>
 #include <boost/math/special_functions/gamma.hpp>
