@@ -199,7 +199,11 @@ class Domains {
   void draw_redraws();
   void count_redraws();
   [[nodiscard]] double time_of(const Redraw& redraw) const { return redraw.time.template since<double>(whole_.epoch_); }
-  bool run_alone(const Instant& until, std::uint64_t pair_limit, std::uint64_t event_limit);
+  bool run_alone(const Instant& until, std::uint64_t pair_limit);
+  /// Returns whether, after a void window, the engine stands before what the caller of run_until() knows of already.
+  [[nodiscard]] bool is_behind(const Counts& counts) const {
+    return detail::all_events(counts) < known_events_ || now() < known_time_;
+  }
   void redraw_alone();
   /// Finds out where the whole engine has each disk.
   void number_slots();
@@ -361,7 +365,10 @@ class Domains {
   double stepped_to_ = 0.0;                         ///< time of the last of them
   std::uint64_t events_before_last_ = 0;            ///< NextEvent::events when the first event at that time was chosen
   std::uint64_t events_at_window_begin_ = 0;        ///< events when the window began
-  /// Events and epochs that this call of run_until() has computed, those of void windows included: what `event_limit` bounds.
+  std::uint64_t known_events_ = 0;                  ///< of all kinds, when run_until() was called
+  Instant known_time_;                              ///< the time then
+  /// Events, epochs and redraws that this call of run_until() has computed, those of void windows included and those that the
+  /// caller knew of already left out: what `event_limit` bounds.
   std::uint64_t work_ = 0;
   Next next_ = Next::window;
   double half_width_ = 0.0;

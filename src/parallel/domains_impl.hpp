@@ -33,28 +33,25 @@ template <class Impact, class Layout, class World>
 bool Domains<Impact, Layout, World>::run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit,
                                                bool exact_events) {
   constexpr auto no_limit = std::numeric_limits<std::uint64_t>::max();
-  const std::uint64_t delivered = detail::all_events(counts());
   const bool exact = exact_events && event_limit < no_limit;
+  event_limit_ = event_limit;
+  known_events_ = detail::all_events(counts());
+  known_time_ = now();
+  work_ = 0;
   const auto alone = [&](const Instant& until) {
     gather();
-    // After a window that was void the whole engine stands before what the caller knows of already.
-    const std::uint64_t behind = delivered - std::min(delivered, detail::all_events(counts()));
-    std::uint64_t left = event_limit - std::min(event_limit, work_);
-    if (!exact) left = std::max(left, std::uint64_t{64});  // enough for the epochs that it has to begin once more
-    const std::uint64_t limit = behind < no_limit - left ? left + behind : no_limit;
     const Counts before = whole_.totals_;
-    const bool arrived =
-        serially([&] { return exact ? engine_.run_until(until, pair_limit, limit) : run_alone(until, pair_limit, limit); });
+    const bool arrived = serially([&] {
+      if (!exact) return run_alone(until, pair_limit);
+      const std::uint64_t behind = known_events_ - std::min(known_events_, detail::all_events(before));
+      return engine_.run_until(until, pair_limit, event_limit < no_limit - behind ? event_limit + behind : no_limit);
+    });
     done_.events_alone += detail::all_events(whole_.totals_) - detail::all_events(before);
-    work_ += detail::events_and_epochs(whole_.totals_) - detail::events_and_epochs(before);
     return arrived;
   };
-  const Instant begun = now();
-  work_ = 0;
   for (;;) {
     const Counts so_far = counts();
-    const bool is_behind = detail::all_events(so_far) < delivered || now() < begun;  // after a void window
-    if (work_ > 0 && work_ >= event_limit && !is_behind) return false;
+    if (work_ > 0 && work_ >= event_limit && !is_behind(so_far)) return false;
     if (!exact && whole_.idle() && redraws_ != nullptr && redraws_->heat() && redraws_->due_by(target)) {
       if (!alone(redraws_->time())) return false;  // the first that moves
       continue;
@@ -72,7 +69,6 @@ bool Domains<Impact, Layout, World>::run_until(const Instant& target, std::uint6
     target_ = std::max(now_, target.since<double>(whole_.epoch_));
     end_ = target;
     pair_limit_ = pair_limit;
-    event_limit_ = event_limit;
     begin_window();
     if (ranks_ != nullptr) order(Order::run);
     tell_decision();
@@ -83,17 +79,26 @@ bool Domains<Impact, Layout, World>::run_until(const Instant& target, std::uint6
   }
 }
 
-/// Runs the whole engine, and makes the redraws before `until`.
+/// Runs the whole engine, and makes the redraws before `until`. After a void window it computes once more what the caller knows
+/// of already, whatever the limit of events is: a run never goes back.
 template <class Impact, class Layout, class World>
-bool Domains<Impact, Layout, World>::run_alone(const Instant& until, std::uint64_t pair_limit, std::uint64_t event_limit) {
-  if (redraws_ == nullptr) return engine_.run_until(until, pair_limit, event_limit);
-  number_slots();
-  const auto happened = [this] { return detail::events_and_epochs(whole_.totals_) + redraws_->done().redraws; };
-  for (const std::uint64_t before = happened();;) {
-    const std::uint64_t left = event_limit - std::min(event_limit, happened() - before);
-    const bool arrived = engine_.run_until(std::min(until, redraws_->time()), pair_limit, left);
-    if (!arrived || !redraws_->due_by(until)) return arrived;
-    redraw_alone();
+bool Domains<Impact, Layout, World>::run_alone(const Instant& until, std::uint64_t pair_limit) {
+  if (redraws_ != nullptr) number_slots();
+  const auto happened = [this] {
+    return detail::events_and_epochs(whole_.totals_) + (redraws_ != nullptr ? redraws_->done().redraws : 0);
+  };
+  constexpr std::uint64_t few = 64;
+  for (const std::uint64_t most = std::max(event_limit_, work_ + few);;) {  // it always comes a little further
+    const bool was_behind = is_behind(whole_.totals_);
+    const std::uint64_t before = happened(), left = was_behind ? few : most - std::min(most, work_);
+    const bool arrived = engine_.run_until(redraws_ != nullptr ? std::min(until, redraws_->time()) : until, pair_limit, left);
+    const bool redraws = arrived && redraws_ != nullptr && redraws_->due_by(until);
+    if (redraws) redraw_alone();
+    const std::uint64_t done = happened() - before;
+    if (!was_behind) work_ += done;
+    if (arrived && !redraws) return true;
+    const bool goes_on = redraws || (was_behind && done > 0);
+    if (!goes_on) return false;
   }
 }
 

@@ -101,6 +101,34 @@ TEST(Threads, MakeRedrawsOfVoidWindowsOnce) {
   }
 }
 
+/// Redraws are far more than collisions here, and use up the limit of a stretch while a void window is made up for.
+TEST(Threads, RunToANumberOfCollisionsWhereMostEventsAreRedraws) {
+  for (const Redrawing how : all_redrawing) {
+    Scene scene = plain_gas(2000, 0.02, Boundary::periodic);
+    redraw(scene, how, 3.0);
+    scene.run.time.reset();
+    scene.run.collisions = 2000;
+    Simulation alone = make_simulation(scene);
+    ASSERT_EQ(run_schedule(alone).stopped, StopReason::collisions);
+    std::uint64_t redone = 0;
+    for (const Threads& threads : {Threads{.domains = 2}, Threads{.domains = 3, .halo = 3.0, .events_per_window = 4.0}}) {
+      Simulation shared = make_simulation(scene);
+      shared.set_threads(threads);
+      double last = 0.0;
+      RunHooks hooks;
+      hooks.proceed = [&](const Progress& progress) {
+        EXPECT_LE(last, progress.time) << "a run never goes back";
+        last = progress.time;
+        return true;
+      };
+      EXPECT_EQ(run_schedule(shared, hooks).stopped, StopReason::collisions);
+      expect_same(alone, shared, std::to_string(threads.domains) + " domains");
+      redone += shared.thread_counts().windows_redone;
+    }
+    EXPECT_GT(redone, 0U);
+  }
+}
+
 TEST(Threads, StopAtExactNumbersBetweenRedraws) {
   for (const Redrawing how : all_redrawing) {
     Scene scene = plain_gas(4000, 0.5, Boundary::walls);
