@@ -22,8 +22,7 @@ struct StartFile {
   Rows rows;
 };
 
-/// Reads the columns in any order. Blank lines and lines that begin with # do not count, but for a comment with the names of the
-/// columns just above the numbers where no other row has them; line ends may be CRLF. What begins as .npy is read as that.
+/// Reads the columns in any order, of a table as CsvTable takes it. What begins as .npy is read as that.
 /// Throws SceneError at "file:line:column" for an unknown, missing or repeated column, a row of the wrong length, a
 /// number that is none or not finite, and a radius or mass that is not above zero.
 StartFile read_start_file(const std::string& path);

@@ -69,6 +69,27 @@ TEST(StartFile, ACommentJustAboveTheNumbersMayNameTheColumns) {
   EXPECT_EQ(parse_start_file("# y,x\nx,y\n# y,x\n1,2\n", "s.csv").positions, std::vector{Eigen::Vector2d(1, 2)});
 }
 
+TEST(StartFile, QuotationMarksRoundAFieldDoNotCount) {
+  const StartFile file = parse_start_file("\"x\", \"y\" ,\" radius\"\n1,\"2\",3\n", "s.csv");
+  EXPECT_EQ(file.positions, std::vector{Eigen::Vector2d(1, 2)});
+  EXPECT_THAT(file.radii, testing::ElementsAre(3));
+  const auto fails = [](const std::string& text) { return refusal_of([&] { parse_start_file(text, "s.csv"); }); };
+  EXPECT_EQ(fails("x,\"y\n1,2\n"), "s.csv:1:3: there is no column \"\"y\"; did you mean y?") << "the second mark is missing";
+  const std::string unnamed =
+      "a column has no name; leave out a column of row numbers (pandas: index=False; R: row.names=FALSE), and name others";
+  EXPECT_EQ(fails(",x,y\n0,1,2\n"), "s.csv:1:1: " + unnamed);
+  EXPECT_EQ(fails("\"\",\"x\",\"y\"\n\"1\",1,2\n"), "s.csv:1:2: " + unnamed);
+}
+
+TEST(StartFile, OfAnotherKindIsRefusedByItsFirstBytes) {
+  const auto fails = [](const std::string& bytes) { return refusal_of([&] { parse_start_file(bytes, "s.csv"); }); };
+  const std::string advice = "; write the table of disks as CSV, or with numpy.save";
+  EXPECT_EQ(fails("PK\x03\x04"), "s.csv: this is a zip archive, such as numpy.savez writes" + advice);
+  EXPECT_EQ(fails("\x1f\x8b\x08"), "s.csv: this is packed by gzip" + advice);
+  EXPECT_EQ(fails("PAR1"), "s.csv: this is a Parquet file" + advice);
+  EXPECT_EQ(fails(std::string("\xff\xfex\0,\0y\0", 8)), "s.csv: this text is in UTF-16" + advice);
+}
+
 /// An .npy file of the format's version 1, 2 or 3, as numpy.lib.format describes it.
 std::string npy(const std::string& header, const std::string& numbers, int version = 1) {
   std::string file = std::string("\x93NUMPY") + static_cast<char>(version) + '\0';

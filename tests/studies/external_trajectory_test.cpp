@@ -89,6 +89,17 @@ TEST_F(ExternalTrajectoryFile, OfATableMayHaveItsColumnsAndDisksInAnyOrder) {
   EXPECT_EQ(frames[0].velocities.cols(), 0);
 }
 
+TEST_F(ExternalTrajectoryFile, OfATableIsReadAsSpreadsheetsPandasNumpyAndRWriteIt) {
+  const std::string rows = "0,0,1,2\r\n0,1,1.5,1\r\n\r\n0, 2, +2, 2\r\n";
+  for (const char* names :
+       {"\xEF\xBB\xBFtime,disk,x,y\r\n", "\"time\",\"disk\",\"x\",\"y\"\n", "# time,disk,x,y\n", "time, id, x, y\n"}) {
+    const std::vector<State> frames = read("a.csv", names + rows);
+    ASSERT_EQ(frames.size(), 1U) << names;
+    EXPECT_EQ(frames[0].positions, (Eigen::Matrix2Xd(2, 3) << 1.0, 1.5, 2.0, 2.0, 1.0, 2.0).finished()) << names;
+  }
+  refused("a.csv", rows, "a.csv:1:1: there is no column time; the first row must name the columns");
+}
+
 TEST_F(ExternalTrajectoryFile, MayGoOnPastPeriodicEdges) {
   const double length = scene_.box.lengths().x();
   const std::string x = std::to_string(0.25 + 3.0 * length);

@@ -1,10 +1,10 @@
 #include "studies/compare/trajectory_file.hpp"
 
 #include "core/nearest_image.hpp"
+#include "scene/csv_table.hpp"
 #include "scene/document.hpp"
 #include "scene/npy_file.hpp"
 #include "studies/diff/diff.hpp"
-#include "text/number_in.hpp"
 
 #include <carom/io/run_reader.hpp>
 
@@ -48,16 +48,10 @@ class FrameTable {
   FrameTable(const std::string& path, std::int64_t disks) : path_(path), text_(detail::read_text_file(path)), disks_(disks) {}
 
   std::vector<State> read() {
-    std::string_view rest = text_;
-    for (int line = 1; !rest.empty(); ++line) {
-      const std::size_t end = std::min(rest.find('\n'), rest.size());
-      std::string_view row = rest.substr(0, end);
-      rest.remove_prefix(std::min(end + 1, rest.size()));
-      if (row.ends_with('\r')) row.remove_suffix(1);
-      if (row.empty() || row.starts_with('#')) continue;
-      line_ = line;
-      names_.empty() ? name_columns(row) : add_row(row);
-    }
+    detail::CsvTable table(text_);
+    if (const std::optional<detail::CsvRow> header = table.header([](std::string_view name) { return name == "time"; }))
+      name_columns(*header);
+    while (const detail::CsvRow* row = table.next()) add_row(*row);
     if (!frames_.empty()) end_frame();
     return std::move(frames_);
   }
@@ -65,20 +59,9 @@ class FrameTable {
  private:
   [[noreturn]] void fail(const std::string& sentence) const { throw SceneError({path_, line_, 1}, sentence); }
 
-  static std::vector<std::string_view> cells_of(std::string_view row) {
-    std::vector<std::string_view> cells;
-    for (std::size_t begin = 0; begin <= row.size();) {
-      const std::size_t end = std::min(row.find(',', begin), row.size());
-      cells.push_back(row.substr(begin, end - begin));
-      begin = end + 1;
-    }
-    return cells;
-  }
-
-  void name_columns(std::string_view row) {
-    names_ = cells_of(row);
-    for (std::string_view& name : names_)
-      if (name == "id") name = "disk";
+  void name_columns(const detail::CsvRow& header) {
+    line_ = header.line;
+    for (const detail::CsvField& field : header.fields) names_.push_back(field.text == "id" ? "disk" : field.text);
     for (const std::string_view needed : {"time", "disk", "x", "y"})
       if (std::find(names_.begin(), names_.end(), needed) == names_.end())
         fail(fmt::format("there is no column {}; the first row must name the columns time,disk,x,y or time,disk,x,y,vx,vy",
@@ -86,17 +69,19 @@ class FrameTable {
   }
   [[nodiscard]] bool has(std::string_view name) const { return std::find(names_.begin(), names_.end(), name) != names_.end(); }
 
-  [[nodiscard]] double number(const std::vector<std::string_view>& cells, std::string_view name) const {
-    const std::string_view cell = cells[static_cast<std::size_t>(std::find(names_.begin(), names_.end(), name) - names_.begin())];
-    const std::optional<double> value = number_in<double>(cell);
-    if (!value || !std::isfinite(*value)) fail(fmt::format("{} is \"{}\", which is no finite number", name, cell));
+  [[nodiscard]] double number(const detail::CsvRow& row, std::string_view name) const {
+    const auto place = static_cast<std::size_t>(std::find(names_.begin(), names_.end(), name) - names_.begin());
+    const std::string_view text = row.fields[place].text;
+    const std::optional<double> value = detail::finite_number_in(text);
+    if (!value) fail(fmt::format("{} is \"{}\", which is no finite number", name, text));
     return *value;
   }
 
-  void add_row(std::string_view row) {
-    const std::vector<std::string_view> cells = cells_of(row);
-    if (cells.size() != names_.size()) fail(fmt::format("the row has {} values for {} columns", cells.size(), names_.size()));
-    const double time = number(cells, "time"), disk = number(cells, "disk");
+  void add_row(const detail::CsvRow& row) {
+    line_ = row.line;
+    if (row.fields.size() != names_.size())
+      fail(fmt::format("the row has {} values for {} columns", row.fields.size(), names_.size()));
+    const double time = number(row, "time"), disk = number(row, "disk");
     if (!(disk >= 0.0 && disk < static_cast<double>(disks_) && disk == std::floor(disk)))
       fail(fmt::format("disk {:g} is none of the scene's, which are numbered 0 to {}", disk, disks_ - 1));
     const bool moving = has("vx") && has("vy");
@@ -110,8 +95,8 @@ class FrameTable {
     const auto i = static_cast<Eigen::Index>(disk);
     State& frame = frames_.back();
     if (!std::isnan(frame.positions(0, i))) fail(fmt::format("disk {} stands twice in the frame at t = {:g}", i, time));
-    frame.positions.col(i) = Eigen::Vector2d(number(cells, "x"), number(cells, "y"));
-    if (moving) frame.velocities.col(i) = Eigen::Vector2d(number(cells, "vx"), number(cells, "vy"));
+    frame.positions.col(i) = Eigen::Vector2d(number(row, "x"), number(row, "y"));
+    if (moving) frame.velocities.col(i) = Eigen::Vector2d(number(row, "vx"), number(row, "vy"));
   }
 
   void end_frame() const {
