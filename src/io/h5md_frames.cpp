@@ -1,5 +1,6 @@
-// Samples as H5MD 1.1, in the shape that MDAnalysis 2.4 reads: three dimensions, edges for every sample, steps and times
-// in full and hard-linked everywhere, units that it knows. The links also keep the file small.
+// Samples as H5MD 1.1, in the shape that MDAnalysis 2.4 reads: three dimensions, a box as thick as it is long, so that no search
+// for neighbours meets the images of a disk above and below it, edges for every sample, steps and times in full and hard-linked
+// everywhere, units that it knows. The links also keep the file small.
 
 #include "io/h5md_frames.hpp"
 
@@ -58,8 +59,7 @@ H5mdFrames::H5mdFrames(hid_t file, const Groups& groups, const Scene& scene, con
   write_attribute(groups.box.get(), "dimension", std::int64_t{3});
   write_attribute(groups.box.get(), "boundary", std::vector<std::string>{boundary_name(box_, 0), boundary_name(box_, 1), "none"});
   // H5MD 1.1 has no place for it, and its readers take the box to begin at zero.
-  write_attribute(groups.box.get(), "origin",
-                  std::array{box_.lower.x(), box_.lower.y(), -0.5 * largest_diameter(disks, State{})});
+  write_attribute(groups.box.get(), "origin", std::array{box_.lower.x(), box_.lower.y(), -0.5 * box_.lengths().maxCoeff()});
 
   std::vector<std::int32_t> ids(disks.count());
   std::iota(ids.begin(), ids.end(), 0);
@@ -77,8 +77,9 @@ void H5mdFrames::append(std::uint64_t k, const Disks& disks, const State& state,
   const Eigen::Vector2d lengths = box_of(box_, state).lengths();
   const auto edges = edges_.add_row();
   edges[0] = lengths.x();
+  edges[3] = tilt_of(lengths, state);
   edges[4] = lengths.y();
-  edges[8] = largest_diameter(disks, state);
+  edges[8] = lengths.maxCoeff();
 
   const auto position = position_.add_row();
   const auto velocity = velocity_.add_row();

@@ -46,11 +46,12 @@ XyzWriter::XyzWriter(std::filesystem::path path, const Scene& scene, const Disks
 void XyzWriter::describe_box(const State& state) {
   const Box now = box_of(box_, state);
   const double thickness = diameter_ * state.scale;
+  displacement_ = state.shear_displacement;
   head_ = fmt::format(
-      "{}\nLattice=\"{} 0 0 0 {} 0 0 0 {}\" Origin=\"{} {} {}\" pbc=\"{} {} F\" "
+      "{}\nLattice=\"{} 0 0 {} {} 0 0 0 {}\" Origin=\"{} {} {}\" pbc=\"{} {} F\" "
       "Properties=species:S:1:pos:R:3:velo:R:3:radius:R:1:mass:R:1:id:I:1 Time=",
-      species_.size(), now.lengths().x(), now.lengths().y(), thickness, now.lower.x(), now.lower.y(), -0.5 * thickness,
-      box_.periodic(0) ? 'T' : 'F', box_.periodic(1) ? 'T' : 'F');
+      species_.size(), now.lengths().x(), tilt_of(now.lengths(), state), now.lengths().y(), thickness, now.lower.x(),
+      now.lower.y(), -0.5 * thickness, box_.periodic(0) ? 'T' : 'F', box_.periodic(1) ? 'T' : 'F');
 }
 
 // Formatting radius and mass anew for every disk and sample would take a third of the time.
@@ -62,7 +63,7 @@ void XyzWriter::describe_kinds(double scale) {
 
 void XyzWriter::sample(const State& state) {
   const auto out = [this] { return std::back_inserter(file_.buffer()); };
-  if (!state.walls.empty() || state.scale != tails_scale_) describe_box(state);
+  if (!state.walls.empty() || state.scale != tails_scale_ || state.shear_displacement != displacement_) describe_box(state);
   if (state.scale != tails_scale_) describe_kinds(state.scale);
   fmt::format_to(out(), "{}{}\n", head_, state.time);
   for (Eigen::Index i = 0; i < state.positions.cols(); ++i) {

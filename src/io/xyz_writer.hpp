@@ -43,8 +43,9 @@ class XyzWriter {
 
   detail::TextFile file_;
   Box box_;
-  double diameter_;   ///< diameter of the largest disk at scale 1
-  std::string head_;  ///< the comment line up to the time
+  double diameter_;            ///< diameter of the largest disk at scale 1
+  double displacement_ = 0.0;  ///< of the images above, of which head_ tells
+  std::string head_;           ///< the comment line up to the time
   std::vector<Kind> kinds_;
   double tails_scale_ = 1.0;        ///< for which tails_ are
   std::vector<std::string> tails_;  ///< per kind: " radius mass "

@@ -21,6 +21,10 @@ double packing_fraction(const Box& box, const Disks& disks, const State& state) 
   return std::numbers::pi * static_cast<double>(squares) * state.scale * state.scale / box_of(box, state).area();
 }
 
+double tilt_of(const Eigen::Vector2d& lengths, const State& state) {
+  return state.shear_displacement > 0.5 * lengths.x() ? state.shear_displacement - lengths.x() : state.shear_displacement;
+}
+
 double largest_diameter(const Disks& disks, const State& state) {
   if (disks.radius.empty()) return 1.0;
   return 2.0 * *std::max_element(disks.radius.begin(), disks.radius.end()) * state.scale;

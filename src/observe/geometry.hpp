@@ -22,6 +22,10 @@ namespace carom {
 /// thickness.
 [[nodiscard]] double largest_diameter(const Disks& disks, const State& state);
 
+/// Returns how far along x the nearest images above stand to the right of those below, between minus half and half the length of
+/// the box, where its edges are sheared; 0 otherwise.
+[[nodiscard]] double tilt_of(const Eigen::Vector2d& lengths, const State& state);
+
 /// `box` and `effects` are the scene's. Requires positions inside the box as the state has it.
 [[nodiscard]] DeepestOverlap deepest_overlap(const Box& box, const Effects& effects, const Disks& disks, const State& state);
 

@@ -97,13 +97,13 @@ TEST_F(H5mdFile, TheBoxIsThreeDimensionalWithEdgesForEverySample) {
   const H5Reader file(write(scene_of(1, 1), 4));
   EXPECT_THAT(file.numbers<int>(particles + "/box", "dimension", H5T_NATIVE_INT), ElementsAre(3));
   EXPECT_THAT(file.strings(particles + "/box", "boundary"), ElementsAre("periodic", "none", "none"));
-  EXPECT_THAT(file.numbers<double>(particles + "/box", "origin", H5T_NATIVE_DOUBLE), ElementsAre(-1.0, 10.0, -0.03));
+  EXPECT_THAT(file.numbers<double>(particles + "/box", "origin", H5T_NATIVE_DOUBLE), ElementsAre(-1.0, 10.0, -2.0));
   EXPECT_THAT(file.extents(particles + "/box/edges/value"), ElementsAre(4, 3, 3));
   const std::vector<double> edges = file.doubles(particles + "/box/edges/value");
   for (std::size_t k = 0; k < 4; ++k) {
     const std::vector<double> one(edges.begin() + static_cast<std::ptrdiff_t>(9 * k),
                                   edges.begin() + static_cast<std::ptrdiff_t>(9 * k + 9));
-    EXPECT_THAT(one, ElementsAre(4.0, 0, 0, 0, 2.5, 0, 0, 0, 0.06));
+    EXPECT_THAT(one, ElementsAre(4.0, 0, 0, 0, 2.5, 0, 0, 0, 4.0));
   }
 }
 

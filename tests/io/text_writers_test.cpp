@@ -172,6 +172,24 @@ TEST(CsvWriter, RoughDisksHaveAColumnOfSpins) {
   }
 }
 
+TEST(XyzWriter, TheLatticeLeansWithTheImagesOfAShearedBox) {
+  const TemporaryDirectory temporary;
+  const Scene scene = scene_of(1, 1);  // 4 long
+  XyzWriter writer(temporary.path() / "t.xyz", scene, hand_made_disks(scene));
+  for (const double displacement : {0.5, 3.5, 0.0}) {
+    State state = state_at(0, scene);
+    state.shear_displacement = displacement;
+    writer.sample(state);
+  }
+  writer.close();
+  const std::string text = text_of(temporary.path() / "t.xyz");
+  std::vector<std::string> lattices;
+  for (std::size_t at = text.find("Lattice="); at != std::string::npos; at = text.find("Lattice=", at + 1))
+    lattices.push_back(text.substr(at, text.find(" Origin", at) - at));
+  EXPECT_THAT(lattices, testing::ElementsAre("Lattice=\"4 0 0 0.5 2.5 0 0 0 0.06\"", "Lattice=\"4 0 0 -0.5 2.5 0 0 0 0.06\"",
+                                             "Lattice=\"4 0 0 0 2.5 0 0 0 0.06\""));
+}
+
 TEST(XyzWriter, RadiiGrowAndTheLatticeFollowsTheWalls) {
   const TemporaryDirectory temporary;
   const Scene scene = scene_with_effects(1, 1);
