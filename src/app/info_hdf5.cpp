@@ -133,9 +133,7 @@ std::string describe_hdf5(const std::filesystem::path& path) {
       try {
         return Hdf5Id(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
       } catch (const Hdf5Error& error) {
-        throw OutputError(
-            fmt::format("{}: HDF5 cannot open this file ({}); it is damaged or cut short, copy it anew or run again",
-                        path.string(), error.what()));
+        throw OutputError(fmt::format("{}: HDF5 cannot open this file ({}); {}", path.string(), error.what(), advice_on(error)));
       }
     }();
     if (is_sweep(file.get())) return fmt::format("{}: results of a sweep\n{}", path.string(), sweep_lines(file.get()));

@@ -36,8 +36,7 @@ auto reading_hdf5(const std::filesystem::path& path, Action action) {
     if (std::error_code ignored; std::filesystem::is_directory(path, ignored))
       throw OutputError(
           fmt::format("{}: this is a directory, and a file is to be there; move it away, or run again", path.string()));
-    throw OutputError(fmt::format("{}: HDF5 cannot read this file ({}); it is damaged or cut short, copy it anew or run again",
-                                  path.string(), error.what()));
+    throw OutputError(fmt::format("{}: HDF5 cannot read this file ({}); {}", path.string(), error.what(), advice_on(error)));
   }
 }
 

@@ -212,28 +212,44 @@ std::vector<std::string> members_of(hid_t file, const std::string& group) {
   return names;
 }
 
-std::vector<hsize_t> extents_of(hid_t file, const std::string& dataset) {
-  if (!exists(file, dataset)) return {};
-  const Hdf5Id opened(H5Dopen2(file, dataset.c_str(), H5P_DEFAULT), H5Dclose);
-  const Hdf5Id space(H5Dget_space(opened.get()), H5Sclose);
-  std::vector<hsize_t> extents(static_cast<std::size_t>(checked(H5Sget_simple_extent_ndims(space.get()))));
-  checked(H5Sget_simple_extent_dims(space.get(), extents.data(), nullptr));
-  return extents;
+std::string_view advice_on(const Hdf5Error& error) {
+  if (std::string_view(error.what()).find("unable to lock file") != std::string_view::npos)
+    return "another program has it open to write, which has to close it; where the file system has no locks, set the environment "
+           "variable HDF5_USE_FILE_LOCKING=FALSE";
+  return "it is damaged or cut short, copy it anew or run again";
 }
 
-std::vector<double> read_rows(hid_t file, const std::string& dataset, hsize_t first, hsize_t count) {
-  std::vector<hsize_t> extents = extents_of(file, dataset);
-  if (extents.empty()) throw Hdf5Error(dataset + " is missing");
-  const Hdf5Id opened(H5Dopen2(file, dataset.c_str(), H5P_DEFAULT), H5Dclose);
-  const Hdf5Id space(H5Dget_space(opened.get()), H5Sclose);
-  std::vector<hsize_t> start(extents.size(), 0);
+const Hdf5Datasets::Dataset& Hdf5Datasets::opened(const std::string& name) {
+  const auto [entry, is_new] = opened_.try_emplace(name);
+  Dataset& dataset = entry->second;
+  if (!is_new || !exists(file_, name)) return dataset;
+  dataset.id = Hdf5Id(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  const Hdf5Id space(H5Dget_space(dataset.id.get()), H5Sclose);
+  dataset.extents.resize(static_cast<std::size_t>(checked(H5Sget_simple_extent_ndims(space.get()))));
+  checked(H5Sget_simple_extent_dims(space.get(), dataset.extents.data(), nullptr));
+  return dataset;
+}
+
+std::vector<hsize_t> Hdf5Datasets::extents(const std::string& name) { return opened(name).extents; }
+
+std::vector<double> Hdf5Datasets::rows(const std::string& name, hsize_t first, hsize_t count) {
+  const Dataset& dataset = opened(name);
+  if (dataset.extents.empty()) throw Hdf5Error(name + " is missing");
+  std::vector<hsize_t> extents = dataset.extents, start(extents.size(), 0);
   start[0] = first;
   extents[0] = count;
+  const Hdf5Id space(H5Dget_space(dataset.id.get()), H5Sclose);
   checked(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, extents.data(), nullptr));
   const Hdf5Id memory(H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr), H5Sclose);
   std::vector<double> values(std::accumulate(extents.begin(), extents.end(), hsize_t{1}, std::multiplies<>()));
-  checked(H5Dread(opened.get(), H5T_NATIVE_DOUBLE, memory.get(), space.get(), H5P_DEFAULT, values.data()));
+  checked(H5Dread(dataset.id.get(), H5T_NATIVE_DOUBLE, memory.get(), space.get(), H5P_DEFAULT, values.data()));
   return values;
+}
+
+std::vector<hsize_t> extents_of(hid_t file, const std::string& dataset) { return Hdf5Datasets(file).extents(dataset); }
+
+std::vector<double> read_rows(hid_t file, const std::string& dataset, hsize_t first, hsize_t count) {
+  return Hdf5Datasets(file).rows(dataset, first, count);
 }
 
 }  // namespace carom::detail

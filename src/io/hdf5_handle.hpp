@@ -6,6 +6,7 @@
 #include <hdf5.h>
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -20,6 +21,9 @@ class Hdf5Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// Returns what to do about a file that HDF5 cannot read.
+[[nodiscard]] std::string_view advice_on(const Hdf5Error& error);
 
 /// Throws Hdf5Error where `result` is negative, which is how every HDF5 function says that it failed.
 template <class Result>
@@ -118,6 +122,28 @@ void write_column(hid_t parent, const std::string& name, const std::vector<std::
 [[nodiscard]] std::uint64_t read_unsigned_attribute(hid_t file, const std::string& object, const std::string& name);
 /// Returns the names in a group, in alphabetical order; empty where there is none.
 [[nodiscard]] std::vector<std::string> members_of(hid_t file, const std::string& group);
+/// The datasets of a file, each opened when it is first asked for and kept open: to open one anew for each row reads a whole
+/// chunk of the file each time. The file must outlive it.
+class Hdf5Datasets {
+ public:
+  explicit Hdf5Datasets(hid_t file) : file_(file) {}
+
+  /// Returns the extents of a dataset; empty where there is none.
+  [[nodiscard]] std::vector<hsize_t> extents(const std::string& name);
+  /// Returns rows [first, first + count) of a dataset, as doubles. Throws Hdf5Error.
+  [[nodiscard]] std::vector<double> rows(const std::string& name, hsize_t first, hsize_t count);
+
+ private:
+  struct Dataset {
+    Hdf5Id id;
+    std::vector<hsize_t> extents;
+  };
+  const Dataset& opened(const std::string& name);
+
+  hid_t file_;
+  std::map<std::string, Dataset> opened_;
+};
+
 /// Returns the extents of a dataset; empty where there is none.
 [[nodiscard]] std::vector<hsize_t> extents_of(hid_t file, const std::string& dataset);
 /// Rows [first, first + count) of a dataset, as doubles. Throws Hdf5Error.

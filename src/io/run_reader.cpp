@@ -14,8 +14,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace carom {
+
+namespace detail {
+
+/// A trajectory file and those of its datasets that have been read.
+struct OpenTrajectory {
+  explicit OpenTrajectory(Hdf5Id opened) : file(std::move(opened)), datasets(file.get()) {}
+  Hdf5Id file;
+  Hdf5Datasets datasets;
+};
+
+}  // namespace detail
 
 namespace fs = std::filesystem;
 
@@ -53,7 +65,7 @@ RunReader RunReader::of_trajectory(const fs::path& file) {
 
 void RunReader::open() {
   guarded([&] {
-    file_ = std::make_shared<const detail::Hdf5Id>(detail::open_trajectory(path_));
+    open_ = std::make_shared<detail::OpenTrajectory>(detail::open_trajectory(path_));
     read_trajectory();
     read_scene();
   });
@@ -73,37 +85,37 @@ void RunReader::read_summary(const fs::path& directory) {
 
 std::vector<double> RunReader::rows(const std::string& dataset, std::uint64_t first, std::uint64_t count,
                                     std::uint64_t row_size) const {
-  std::vector<double> values = detail::read_rows(file_->get(), dataset, first, count);
+  std::vector<double> values = open_->datasets.rows(dataset, first, count);
   if (values.size() != count * row_size) throw Hdf5Error(dataset + " has another shape than it should");
   return values;
 }
 
 void RunReader::read_trajectory() {
-  const std::vector<hsize_t> extents = detail::extents_of(file_->get(), particles + "/position/value");
+  const std::vector<hsize_t> extents = open_->datasets.extents(particles + "/position/value");
   if (extents.size() != 3 || extents[2] != 3) throw Hdf5Error("there is no position/value of three dimensions");
-  samples_ = std::min<std::uint64_t>(extents[0], detail::extents_of(file_->get(), particles + "/position/time").at(0));
+  samples_ = std::min<std::uint64_t>(extents[0], open_->datasets.extents(particles + "/position/time").at(0));
   const std::uint64_t count = extents[1];
   disks_.radius = rows(particles + "/radius", 0, count, 1);
   disks_.mass = rows(particles + "/mass", 0, count, 1);
   for (const double species : rows(particles + "/species", 0, count, 1))
     disks_.species.push_back(static_cast<std::int32_t>(species));
-  const std::vector<hsize_t> events = detail::extents_of(file_->get(), "/events/time");
+  const std::vector<hsize_t> events = open_->datasets.extents("/events/time");
   has_event_log_ = !events.empty();
   if (has_event_log_) events_ = events[0];
 }
 
 /// The box and what acts, from the text that the run was made from.
 void RunReader::read_scene() {
-  const auto text = [&](const char* name) { return detail::read_string_attribute(file_->get(), parameters, name); };
+  const auto text = [&](const char* name) { return detail::read_string_attribute(open_->file.get(), parameters, name); };
   resolved_scene_ = text("resolved_scene");
   scene_ = detail::scene_of(resolved_scene_, path_);
   title_ = text("title");
-  species_names_ = detail::read_strings_attribute(file_->get(), parameters, "species_names");
+  species_names_ = detail::read_strings_attribute(open_->file.get(), parameters, "species_names");
   for (const std::int32_t species : disks_.species)
     if (species < 0 || static_cast<std::size_t>(species) >= species_names_.size())
       throw Hdf5Error("a disk belongs to a species without a name");
   facts_.insert(facts_.begin(), {{"Scene", text("scene_source")},
-                                 {"Seed", std::to_string(detail::read_unsigned_attribute(file_->get(), parameters, "seed"))},
+                                 {"Seed", std::to_string(detail::read_unsigned_attribute(open_->file.get(), parameters, "seed"))},
                                  {"Engine", text("engine")},
                                  {"Command", text("command_line")},
                                  {"Carom", fmt::format("{} (commit {})", text("version"), text("commit"))}});
@@ -160,7 +172,7 @@ State RunReader::sample(std::uint64_t k) const {
     for (std::size_t side = 0; side < std::min(of_walls.size(), state.walls.size()); ++side)
       state.walls[side].velocity = of_walls[side];
     for (const double bonds : observable("bonds", k, 1)) state.bonds = static_cast<std::uint64_t>(bonds);
-    if (const auto extents = detail::extents_of(file_->get(), "/observables/pairs_in_steps/value"); extents.size() == 2) {
+    if (const auto extents = open_->datasets.extents("/observables/pairs_in_steps/value"); extents.size() == 2) {
       for (const double pairs : observable("pairs_in_steps", k, extents[1]))  // in all steps that changes may bring in
         state.pairs_in_steps.push_back(static_cast<std::uint64_t>(pairs));
     } else if (scene_.effects.square_well) {
@@ -176,7 +188,7 @@ State RunReader::sample(std::uint64_t k) const {
 
 std::vector<double> RunReader::observable(const std::string& name, std::uint64_t k, std::uint64_t row_size) const {
   const std::string dataset = "/observables/" + name + "/value";
-  if (detail::extents_of(file_->get(), dataset).empty()) return {};
+  if (open_->datasets.extents(dataset).empty()) return {};
   return rows(dataset, k, 1, row_size);
 }
 
@@ -218,7 +230,7 @@ State RunReader::start() const {
   return guarded([&] {
     const auto count = static_cast<Eigen::Index>(disks_.count());
     const auto columns = [&](const std::string& dataset) {
-      if (detail::extents_of(file_->get(), dataset).empty())
+      if (open_->datasets.extents(dataset).empty())
         throw OutputError(fmt::format(
             "{}: an earlier version wrote this file, without the start of its event log; run the scene again", path_.string()));
       const std::vector<double> values = rows(dataset, 0, disks_.count(), 2);
@@ -235,7 +247,7 @@ State RunReader::start() const {
 
 double RunReader::reference_temperature() const {
   return guarded([&] {
-    const std::vector<double> kT = detail::read_numbers_attribute(file_->get(), parameters, "reference_temperature");
+    const std::vector<double> kT = detail::read_numbers_attribute(open_->file.get(), parameters, "reference_temperature");
     if (kT.size() != 1)
       throw OutputError(fmt::format(
           "{}: an earlier version wrote this file, without the temperature that observables refer to; run the scene again",

@@ -17,7 +17,7 @@
 namespace carom {
 
 namespace detail {
-class Hdf5Id;
+struct OpenTrajectory;
 }
 
 class RunReader {
@@ -75,7 +75,7 @@ class RunReader {
   [[nodiscard]] std::vector<double> observable(const std::string& name, std::uint64_t k, std::uint64_t row_size) const;
 
   std::filesystem::path path_;  ///< path of the trajectory
-  std::shared_ptr<const detail::Hdf5Id> file_;
+  std::shared_ptr<detail::OpenTrajectory> open_;
   Scene scene_;
   std::string resolved_scene_;
   Disks disks_;
