@@ -3,6 +3,7 @@
 
 #include "scene/changes.hpp"
 #include "scene/checks.hpp"
+#include "scene/contact_scales.hpp"
 #include "scene/document.hpp"
 #include "scene/effect_traits.hpp"
 #include "scene/walls.hpp"
@@ -50,19 +51,20 @@ void check_time(const Scene& scene, std::size_t k, const std::string& path) {
                                               path, time, *scene.run.time));
 }
 
-/// A scene with the effects of one stretch of the run, which lasts as long as that.
-Scene stage_of(const Scene& scene, const Effects& effects, const Box& box, std::optional<double> lasts) {
+/// Returns what is the same in all stretches of the run.
+Scene first_stage_of(const Scene& scene) {
   Scene stage = scene;
   for (Species& species : stage.species) species.positions = RandomPositions{};
-  stage.effects = effects;
-  stage.box = box;
-  stage.run.time = lasts;
   stage.changes.clear();
   stage.observe.clear();
   return stage;
 }
 
-void check_stage(const Scene& stage) {
+/// Checks a scene with the effects of one stretch of the run, which lasts as long as that.
+void check_stage(Scene& stage, const Effects& effects, const Box& box, std::optional<double> lasts) {
+  stage.effects = effects;
+  stage.box = box;
+  stage.run.time = lasts;
   check_numbers(stage);
   check_fixed_shapes(stage);
   check_effects(stage);
@@ -107,14 +109,10 @@ class VibratingWalls {
 };
 
 bool contact_distances_differ(const Scene& scene, const Effects& now, const Effects& before) {
-  const auto delta = [](const Effects& effects, std::int64_t one, std::int64_t other) {
-    return effects.non_additivity ? effects.non_additivity->between(one, other) : 0.0;
+  const auto deltas = [&](const Effects& effects) {
+    return deltas_of(effects.non_additivity.value_or(NonAdditivity{}), scene.species.size());
   };
-  const auto kinds = static_cast<std::int64_t>(scene.species.size());
-  for (std::int64_t one = 0; one < kinds; ++one)
-    for (std::int64_t other = 0; other < one; ++other)
-      if (delta(now, one, other) != delta(before, one, other)) return true;
-  return false;
+  return (now.non_additivity || before.non_additivity) && deltas(now) != deltas(before);
 }
 
 /// Observables know one flow and one clock.
@@ -146,7 +144,9 @@ void check_changes(const Scene& scene) {
     return k < scene.changes.size() ? std::optional(scene.changes[k].time) : scene.run.time;
   };
   for (std::size_t k = 0; k < scene.changes.size(); ++k) check_time(scene, k, fmt::format("changes.{}", k));
-  check_stage(stage_of(scene, now, box, until(0)));
+  Scene stage = first_stage_of(scene);
+  check_stage(stage, now, box, until(0));
+  stage.run.equilibrate.reset();
   for (std::size_t k = 0; k < scene.changes.size(); ++k) {
     const Change& change = scene.changes[k];
     const std::string path = fmt::format("changes.{}", k);
@@ -158,9 +158,7 @@ void check_changes(const Scene& scene) {
       now = effects_after(before, change);
       vibrating.change(box, before, now, change.time);
       const std::optional<double> end = until(k + 1);
-      Scene stage = stage_of(scene, now, box, end ? std::optional(*end - change.time) : std::nullopt);
-      stage.run.equilibrate.reset();
-      check_stage(stage);
+      check_stage(stage, now, box, end ? std::optional(*end - change.time) : std::nullopt);
     } catch (const Refusal& refusal) {
       throw Refusal(path, fmt::format("{}: {}", path, refusal.what()));
     } catch (const SceneError& error) {

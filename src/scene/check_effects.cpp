@@ -8,6 +8,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <map>
+#include <utility>
 
 namespace carom::detail {
 namespace {
@@ -176,6 +179,7 @@ void check_non_additivity(const Scene& scene) {
                                       path, delta, keys::delta.example));
   };
   check_delta("non_additivity.delta", mixture.delta);
+  std::map<std::pair<std::int64_t, std::int64_t>, std::size_t> pairs;  // each two species, with their number in the list
   for (std::size_t k = 0; k < mixture.pairs.size(); ++k) {
     const NonAdditivity::Pair& pair = mixture.pairs[k];
     const std::string path = fmt::format("non_additivity.pairs.{}", k);
@@ -192,10 +196,10 @@ void check_non_additivity(const Scene& scene) {
                       "species",
                       path, pair.species[0]));
     check_delta(path + ".delta", pair.delta);
-    for (std::size_t before = 0; before < k; ++before)
-      if (std::is_permutation(pair.species.begin(), pair.species.end(), mixture.pairs[before].species.begin()))
-        throw Refusal(
-            path, fmt::format("non_additivity.pairs.{} and {} are of the same two species; remove one of them", before, path));
+    const auto [before, is_new] = pairs.try_emplace(std::minmax(pair.species[0], pair.species[1]), k);
+    if (!is_new)
+      throw Refusal(path, fmt::format("non_additivity.pairs.{} and {} are of the same two species; remove one of them",
+                                      before->second, path));
   }
   if (!effect_named("non_additivity").acts(scene.effects)) return;
   constexpr std::int64_t most_kinds = 1000;

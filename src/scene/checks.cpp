@@ -2,6 +2,8 @@
 
 #include "scene/checks.hpp"
 
+#include "scene/contact_scales.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,13 +40,15 @@ std::vector<UnlikeContact> unlike_contacts(const Scene& scene) {
   if (!scene.effects.non_additivity) return contacts;
   std::vector<Radii> radii;
   for (const Species& species : scene.species) radii.push_back(species.count > 0 ? radii_of(species) : Radii{});
-  const auto kinds = static_cast<std::int64_t>(scene.species.size());
-  for (std::int64_t i = 0; i < kinds; ++i)
-    for (std::int64_t j = i + 1; j < kinds; ++j) {
-      const Radii &a = radii[static_cast<std::size_t>(i)], &b = radii[static_cast<std::size_t>(j)];
+  const std::size_t kinds = scene.species.size();
+  const std::vector<double> deltas = deltas_of(*scene.effects.non_additivity, kinds);
+  for (std::size_t i = 0; i < kinds; ++i)
+    for (std::size_t j = i + 1; j < kinds; ++j) {
+      const Radii &a = radii[i], &b = radii[j];
       if (a.largest == 0.0 || b.largest == 0.0) continue;  // no disks
-      const double scale = 1.0 + scene.effects.non_additivity->between(i, j);
-      contacts.push_back({i, j, scale, scale * (a.smallest + b.smallest), scale * (a.largest + b.largest)});
+      const double scale = 1.0 + deltas[i * kinds + j];
+      contacts.push_back({static_cast<std::int64_t>(i), static_cast<std::int64_t>(j), scale, scale * (a.smallest + b.smallest),
+                          scale * (a.largest + b.largest)});
     }
   return contacts;
 }

@@ -14,20 +14,22 @@
 
 namespace carom {
 
+/// Returns the delta of each two of so many species, row by row: NonAdditivity::between() of all pairs.
+[[nodiscard]] std::vector<double> deltas_of(const NonAdditivity& mixture, std::size_t species);
+
 /// Returns the contact distances of disks of these species over the sums of their radii: 1 + delta.
 template <class Real>
 [[nodiscard]] ContactScales<Real> contact_scales(const Effects& effects, std::vector<std::int32_t> species) {
   if (!effects.non_additivity || species.empty()) return {};
-  const std::int32_t kinds = *std::max_element(species.begin(), species.end()) + 1;
+  const auto kinds = static_cast<std::size_t>(*std::max_element(species.begin(), species.end())) + 1;
   std::vector<Real> scales;
   bool additive = true;
-  for (std::int32_t one = 0; one < kinds; ++one)
-    for (std::int32_t other = 0; other < kinds; ++other) {
-      scales.push_back(Real(1) + Real(effects.non_additivity->between(one, other)));
-      additive = additive && scales.back() == 1;
-    }
+  for (const double delta : deltas_of(*effects.non_additivity, kinds)) {
+    scales.push_back(Real(1) + Real(delta));
+    additive = additive && scales.back() == 1;
+  }
   if (additive) return {};
-  return {std::move(species), static_cast<std::size_t>(kinds), std::move(scales)};
+  return {std::move(species), kinds, std::move(scales)};
 }
 template <class Real>
 [[nodiscard]] ContactScales<Real> contact_scales(const Effects& effects, const Disks& disks) {

@@ -1,5 +1,6 @@
 // Which effects a scene calls for.
 
+#include "scene/contact_scales.hpp"
 #include "scene/effect_traits.hpp"
 
 #include <carom/effects.hpp>
@@ -27,6 +28,17 @@ double NonAdditivity::between(std::int64_t one, std::int64_t other) const {
     if ((pair.species[0] == one && pair.species[1] == other) || (pair.species[0] == other && pair.species[1] == one))
       return pair.delta;
   return delta;
+}
+
+std::vector<double> deltas_of(const NonAdditivity& mixture, std::size_t species) {
+  std::vector<double> deltas(species * species, mixture.delta);
+  for (std::size_t k = 0; k < species; ++k) deltas[k * species + k] = 0.0;
+  for (auto pair = mixture.pairs.rbegin(); pair != mixture.pairs.rend(); ++pair) {
+    const auto one = static_cast<std::size_t>(pair->species[0]), other = static_cast<std::size_t>(pair->species[1]);
+    if (one < species && other < species && one != other)
+      deltas[one * species + other] = deltas[other * species + one] = pair->delta;
+  }
+  return deltas;
 }
 
 void put_in_circle(Box& box, Effects& effects, const Circle& circle) {

@@ -3,6 +3,7 @@
 
 #include "scene/fixed_shapes.hpp"
 
+#include "core/nearest_image.hpp"
 #include "scene/checks.hpp"
 #include "scene/number_keys.hpp"
 #include "scene/read_tables.hpp"
@@ -52,6 +53,18 @@ double distance(const Box& box, const Obstacle& shape, const Eigen::Vector2d& po
   return nearest;
 }
 
+struct Bounds {
+  Eigen::Vector2d centre;
+  double radius;
+};
+/// Returns a circle that holds all of a shape.
+Bounds bounding_circle(const Obstacle& shape) {
+  if (const auto* disk = std::get_if<DiskObstacle>(&shape)) return {disk->centre, disk->radius};
+  if (const auto* arc = std::get_if<ArcObstacle>(&shape)) return {arc->centre, arc->radius};
+  const auto& segment = std::get<SegmentObstacle>(shape);
+  return {0.5 * (segment.from + segment.to), 0.5 * (segment.to - segment.from).norm()};
+}
+
 }  // namespace
 
 std::string path_of_shape(const Effects& effects, std::size_t k) {
@@ -63,6 +76,8 @@ std::optional<ShapeOverlap> overlapped_shape(const Box& box, const Effects& effe
   const std::vector<Obstacle>& shapes = effects.obstacles;
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     const auto* disk = std::get_if<DiskObstacle>(&shapes[k]);
+    const Bounds bounds = bounding_circle(shapes[k]);
+    if (nearest_image(box, position - bounds.centre).norm() > (1.0 + 1e-12) * (radius + bounds.radius)) continue;
     const double contact = radius + (disk == nullptr ? 0.0 : disk->radius);
     const double depth = contact - distance(box, shapes[k], position);
     if (depth > tolerance * contact) return ShapeOverlap{k, depth, contact};
