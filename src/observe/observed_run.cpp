@@ -4,6 +4,8 @@
 #include "scene/effect_traits.hpp"
 #include "scene/observables_known.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -69,12 +71,19 @@ double ObservedRun::step_of(double mean_free_times) const {
   return scene.run.sample_every.value_or(scene.run.sample_log ? scene.run.sample_log->block : 1.0);
 }
 
-std::string ObservedRun::suffix(std::size_t species) const {
-  if (scene.species.size() == 1) return {};
-  const std::string word = word_of(scene.species[species].name);
-  const auto same = [&](const Species& other) { return word_of(other.name) == word; };
-  const bool unique = std::count_if(scene.species.begin(), scene.species.end(), same) == 1;
-  return "_" + (unique ? word : std::to_string(species));
+std::vector<std::string> suffixes_of(const std::vector<Species>& species) {
+  if (species.size() == 1) return {""};
+  std::vector<std::string> suffixes;
+  for (const Species& one : species) suffixes.push_back("_" + word_of(one.name));
+  // Names of results have one or two of these, beside "_x", "_y" and "_error". They differ if none begins like another.
+  std::vector<std::string> sorted = suffixes;
+  sorted.insert(sorted.end(), {"_x", "_y", "_error"});
+  for (std::string& suffix : sorted) suffix += '_';
+  std::sort(sorted.begin(), sorted.end());
+  const auto begins_like = [](const std::string& one, const std::string& next) { return next.starts_with(one); };
+  if (std::adjacent_find(sorted.begin(), sorted.end(), begins_like) != sorted.end())
+    for (std::size_t k = 0; k < species.size(); ++k) suffixes[k] = fmt::format("_{}", k);
+  return suffixes;
 }
 
 bool ObservedRun::conserves_momentum(int axis) const { return carom::conserves_momentum(scene.box, scene.effects, axis); }

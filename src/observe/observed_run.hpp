@@ -7,10 +7,16 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace carom {
+
+/// Returns what tells the species apart in the names of results: "" for one species, else "_NAME" of each, with nothing in it
+/// that a file could not have in a name; "_0", "_1", ... where two of these could be mistaken for each other, or for an axis or
+/// error.
+[[nodiscard]] std::vector<std::string> suffixes_of(const std::vector<Species>& species);
 
 struct ObservedRun {
   const Scene& scene;
@@ -24,6 +30,7 @@ struct ObservedRun {
   bool has_collision_records = false;  ///< whether the simulation itself records collisions with what came before them
   bool own_rule = false;               ///< whether a collision rule of the program acts
   double mean_free_time = 0.0;  ///< mean free time by Enskog's theory for disks of mean size and mass; 0 where nothing moves
+  std::vector<std::string> suffixes = suffixes_of(scene.species);  ///< of the species
 
   /// Returns the step of an observable: as the scene says, else the observable's own number of mean free times; 0 for observables
   /// without samples.
@@ -32,9 +39,7 @@ struct ObservedRun {
   [[nodiscard]] double step_of(double mean_free_times) const;
 
   [[nodiscard]] std::size_t species_count() const { return scene.species.size(); }
-  /// Returns text such as "" with one species, else "_NAME", with nothing in it that a file could not have in a name; "_0", "_1"
-  /// where that is ambiguous
-  [[nodiscard]] std::string suffix(std::size_t species) const;
+  [[nodiscard]] const std::string& suffix(std::size_t species) const { return suffixes[species]; }
   [[nodiscard]] bool conserves_momentum(int axis) const;
   /// Returns whether motion of the centre of mass along an axis is a part of the temperature.
   [[nodiscard]] bool centre_of_mass_is_thermal(int axis) const;
