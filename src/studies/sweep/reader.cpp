@@ -19,6 +19,7 @@
 #include <set>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -214,9 +215,10 @@ void read_scene(const toml::table& document, Sweep& sweep) {
 
 std::vector<std::uint64_t> listed_seeds(const toml::array& list) {
   std::vector<std::uint64_t> seeds;
+  std::unordered_set<std::int64_t> known;
   for (std::size_t k = 0; k < list.size(); ++k) {
     const std::int64_t seed = detail::read_integer(list[k], fmt::format("seeds.{}", k), "seeds = [1, 2, 3]");
-    if (std::find(seeds.begin(), seeds.end(), static_cast<std::uint64_t>(seed)) != seeds.end())
+    if (!known.insert(seed).second)
       throw SceneError(location_of(list[k]), fmt::format("seed {} is there twice; a seed gives one run, so name it once", seed));
     seeds.push_back(static_cast<std::uint64_t>(seed));
   }
