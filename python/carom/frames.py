@@ -281,7 +281,11 @@ class Frames:
         return animation_of_frames(self, every=every, color=color, trail=trail, interval=interval)
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Writes all arrays and the scene into an .npz file, for `numpy.load()`."""
+        """Writes all arrays and the scene into an .npz file, for `numpy.load()`. Raises OutputError where it cannot be written.
+
+        `walls`, shape (F, 4, 2), has position and velocity of the walls left, right, bottom and top where one of them moves, and
+        `shear_displacement`, shape (F,), how far images above are from those below where the box is sheared.
+        """
         place = path_text(path, "path")
         arrays = {name: getattr(self, name) for name in ("time", "scale", "collisions", "virial", "radii", "species")} | self._sampled()
         try:
@@ -292,36 +296,32 @@ class Frames:
     def _sampled(self) -> dict[str, npt.NDArray[Any]]:
         """The arrays that were sampled and that the scene has."""
         arrays = {"positions": self._positions, "velocities": self._velocities, "images": self._images, "spins": self._spins}
+        if not np.isnan(self._walls).all():
+            arrays["walls"] = self._walls
+        if self._shear_displacement.any():
+            arrays["shear_displacement"] = self._shear_displacement
         return {name: array for name, array in arrays.items() if array is not None}
 
     def to_xarray(self) -> Any:
         """Returns an xarray.Dataset with the coordinates time, disk and axis ("x", "y"). Needs xarray (pip install carom[tables])."""
         import xarray
 
-        dims = {"positions": ("time", "disk", "axis"), "velocities": ("time", "disk", "axis"), "images": ("time", "disk", "axis")}
+        dims: dict[str, tuple[str, ...]] = {"positions": ("time", "disk", "axis"), "velocities": ("time", "disk", "axis"), "images": ("time", "disk", "axis")}
+        dims |= {"walls": ("time", "wall", "motion"), "shear_displacement": ("time",)}
         variables: dict[str, Any] = {name: (dims.get(name, ("time", "disk")), array) for name, array in self._sampled().items()}
         variables |= {name: (("time",), getattr(self, name)) for name in ("scale", "collisions", "virial")}
         variables |= {name: (("disk",), getattr(self, name)) for name in ("radii", "species")}
-        coordinates = {"time": self.time, "axis": ["x", "y"]}
+        coordinates: dict[str, Any] = {"time": self.time, "axis": ["x", "y"]}
+        if "walls" in variables:
+            coordinates |= {"wall": ["left", "right", "bottom", "top"], "motion": ["position", "velocity"]}
         return xarray.Dataset(variables, coords=coordinates, attrs={"scene": self.scene.toml, "state_hash": self.state_hash})
 
     def to_mdanalysis(self) -> Any:
-        """Returns an MDAnalysis.Universe with these positions (z = 0) and velocities, an atom per disk. Needs MDAnalysis."""
-        import MDAnalysis
-        from MDAnalysis.coordinates.memory import MemoryReader
+        """Returns an MDAnalysis.Universe with these positions (z = 0), velocities and times, and an atom per disk.
 
-        disks = len(self.radii)
+        The box of each frame begins at 0, follows walls that move, leans where it is sheared, and is as thick as it is long; radii are
+        those at scale 1. Needs MDAnalysis.
+        """
+        from carom._mdanalysis import universe_of
 
-        def in_space(array: Floats) -> npt.NDArray[np.float32]:
-            spatial = np.zeros((len(self), disks, 3), np.float32)
-            spatial[:, :, :2] = array
-            return spatial
-
-        universe = MDAnalysis.Universe.empty(disks, trajectory=True, velocities=self._velocities is not None)
-        universe.add_TopologyAttr("radii", self.radii)
-        (x0, x1), (y0, y1) = self.scene.box
-        size = np.array([x1 - x0, y1 - y0, 1.0, 90.0, 90.0, 90.0], np.float32)
-        dt = float(self.time[1] - self.time[0]) if len(self) > 1 else 1.0
-        velocities = None if self._velocities is None else in_space(self._velocities)
-        universe.load_new(in_space(self.positions), format=MemoryReader, dimensions=size, dt=dt, velocities=velocities)
-        return universe
+        return universe_of(self)

@@ -7,6 +7,7 @@ from os import PathLike
 from pathlib import Path
 
 from carom._arguments import path_text
+from carom._errors import OutputError
 
 
 class Page:
@@ -26,8 +27,12 @@ class Page:
         self.height = height
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Writes the page to a file, in the place of one that is there. Raises OSError where it cannot be written."""
-        Path(path_text(path, "path")).write_text(self.html, encoding="utf-8")
+        """Writes the page to a file, in the place of one that is there. Raises OutputError where it cannot be written."""
+        place = path_text(path, "path")
+        try:
+            Path(place).write_text(self.html, encoding="utf-8")
+        except OSError as error:
+            raise OutputError(f"{place}: cannot write the page: {error.strerror}") from None
 
     def open(self) -> None:
         """Shows the page in the web browser, from a temporary file, which stays. Raises RuntimeError where there is no browser."""

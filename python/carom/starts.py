@@ -78,17 +78,26 @@ def _of_gsd(path: str, frame: int) -> Start:
     try:
         with gsd.hoomd.open(path, "r") as trajectory:
             found = trajectory[frame]
+            frame %= len(trajectory)
+
+            def is_written(name: str) -> bool:
+                """Tells what the file holds from what its readers assume: disks at rest, of diameter 1 and mass 1."""
+                return any(trajectory.file.chunk_exists(frame=k, name=f"particles/{name}") for k in (frame, 0))
+
+            written = {name for name in ("velocity", "diameter", "mass") if is_written(name)}
     except (OSError, RuntimeError) as error:
         raise OutputError(f"{path}: cannot read this GSD file: {error}") from None
     except IndexError:
         raise ValueError(f"{path}: there is no frame {frame}") from None
     particles = found.particles
-    x, y = (float(length) for length in found.configuration.box[:2])
+    x, y, _, tilt = (float(length) for length in found.configuration.box[:4])
+    if tilt != 0:
+        raise ValueError(f"{path}: its box leans by xy = {tilt:g}; a start has a rectangular box")
     return Start(
         _plane(particles.position),
-        None if particles.velocity is None else _plane(particles.velocity),
-        None if particles.diameter is None else np.asarray(particles.diameter, np.float64) / 2,
-        None if particles.mass is None else np.asarray(particles.mass, np.float64),
+        _plane(particles.velocity) if "velocity" in written else None,
+        np.asarray(particles.diameter, np.float64) / 2 if "diameter" in written else None,
+        np.asarray(particles.mass, np.float64) if "mass" in written else None,
         ((-x / 2, x / 2), (-y / 2, y / 2)),
     )
 
@@ -106,7 +115,15 @@ def _of_universe(source: Any, frame: int) -> Start:
 
     def column(name: str) -> Floats | None:
         found = getattr(atoms, name, None)
+        if getattr(getattr(universe._topology, name, None), "is_guessed", False):
+            return None  # from the symbols of elements, which stand for species
         return None if found is None or not np.all(np.asarray(found) > 0) else np.asarray(found, np.float64)
 
-    box = None if size is None else ((0.0, float(size[0])), (0.0, float(size[1])))
+    def edges(axis: int) -> tuple[float, float]:
+        """Returns a box that begins at 0, as MDAnalysis takes it, or has 0 in its middle, as GSD files and others have it."""
+        length = float(size[axis])
+        is_centred = len(positions) > 0 and positions[:, axis].min() < 0 and np.all(np.abs(positions[:, axis]) <= length / 2)
+        return (-length / 2, length / 2) if is_centred else (0.0, length)
+
+    box = None if size is None else (edges(0), edges(1))
     return Start(positions, velocities, column("radii"), column("masses"), box)

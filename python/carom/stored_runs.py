@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any
 
@@ -69,7 +69,7 @@ class Run:
     @property
     def frames(self) -> StoredFrames:
         """The samples in trajectory.h5md, which are read when they are asked for. Needs h5py (pip install carom[files])."""
-        return StoredFrames(self.directory / "trajectory.h5md", self.scene)
+        return StoredFrames(self)
 
     def state(self, k: int = -1) -> State:
         """Returns sample k to the last bit, the last one by default: another simulation can begin with it."""
@@ -159,15 +159,18 @@ class Run:
 class StoredFrames:
     """The samples of a run in its file. Arrays behave as h5py's: `frames.positions[::100]` reads every hundredth frame.
 
+    Each index of an array opens the file anew. A loop over all frames is fastest over the frames themselves, `for state in frames`.
+
     Attributes:
         scene: the scene that ran.
     """
 
-    def __init__(self, path: Path, scene: Scene) -> None:
-        self.scene = scene
-        self._path = path
-        if not path.exists():
-            raise OutputError(f"{path}: there is no such file: this run kept no trajectory")
+    def __init__(self, run: Run) -> None:
+        self.scene = run.scene
+        self._run = run
+        self._path = run.directory / "trajectory.h5md"
+        if not self._path.exists():
+            raise OutputError(f"{self._path}: there is no such file: this run kept no trajectory")
 
     @property
     def time(self) -> npt.NDArray[np.float64]:
@@ -185,7 +188,17 @@ class StoredFrames:
         return self._dataset("velocity")
 
     def __len__(self) -> int:
-        return self.positions.shape[0]
+        return int(self._run._open().samples)
+
+    def __getitem__(self, k: int) -> State:
+        """Returns frame k to the last bit, counted from the end where k is negative, as `Run.state(k)` does."""
+        k = whole(k, "the number of a frame", least=-(2**63))
+        if not -len(self) <= k < len(self):
+            raise IndexError(f"there is no frame {k}; there are {len(self)}, numbered from 0")
+        return self._run.state(k)
+
+    def __iter__(self) -> Iterator[State]:
+        return (self._run.state(k) for k in range(len(self)))
 
     def __repr__(self) -> str:
         return f"<carom.StoredFrames in {self._path}>"

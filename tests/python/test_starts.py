@@ -10,9 +10,9 @@ XY = np.array([[-4.0, -3.0], [0.5, 1.25], [3.0, 2.0]])
 V = np.array([[1.0, 0.0], [-0.5, 0.25], [0.1, -2.0]])
 
 
-def scene(box=BOX):
+def scene(box=BOX, **effects):
     disks = {"count": 1, "radius": 0.5, "mass": 1, "positions": "random", "velocities": "rest"}
-    return carom.Scene(box=box, disks=disks, collision={"rule": "specular"}, run={"time": 1, "sample_every": 0.1})
+    return carom.Scene(box=box, disks=disks, collision={"rule": "specular"}, run={"time": 1, "sample_every": 0.1}, **effects)
 
 
 def begins(start, radii=0.5, masses=1.0):
@@ -77,6 +77,51 @@ def test_a_universe_of_mdanalysis_there_and_back():
     assert np.array_equal(start.velocities, frames.velocities[-1].astype(np.float32))
     assert start.box == ((0.0, 10.0), (0.0, 8.0)) and np.all(start.radii == 0.5)
     carom.Simulation(scene(box).with_disks(start))
+
+
+def test_a_universe_of_mdanalysis_has_the_times_and_boxes_of_its_frames():
+    pytest.importorskip("MDAnalysis", reason="MDAnalysis is not installed")
+    from MDAnalysis.lib.distances import self_capped_distance
+
+    box = {"x": (0, 10), "y": (0, 8), "boundary": "periodic"}
+    sim = carom.Simulation(scene(box).with_disks(XY + [5, 4], V))
+    sim.run_until(5.0)
+    universe = sim.sample(0.125, 6.0).to_mdanalysis()
+    assert [step.time for step in universe.trajectory] == [5.0 + 0.125 * k for k in range(9)]
+    assert [step.time for step in universe.copy().trajectory][-1] == 6.0
+    pairs, _ = self_capped_distance(universe.atoms.positions, 3.9, box=universe.dimensions)  # half the box is 4
+    assert len(pairs) <= 3, "no disk is a neighbour of its own image above it"
+    closing = scene(box | {"boundary": "walls"}, walls={"right": {"velocity": -0.5}}).with_disks(XY + [5, 4], V)
+    universe = carom.Simulation(closing).sample(1.0, 2.0).to_mdanalysis()
+    assert [step.dimensions[:3].tolist() for step in universe.trajectory] == [[10, 8, 10], [9.5, 8, 9.5], [9, 8, 9]]
+    sheared = carom.Simulation(scene(box, shear={"rate": 0.25}).with_disks(XY + [5, 4], V))
+    universe = sheared.sample(1.0, 1.0).to_mdanalysis()
+    x, y, _, _, _, angle = universe.trajectory[1].dimensions
+    assert x == 10 and abs(y - np.hypot(2, 8)) < 1e-6 and abs(angle - np.degrees(np.arctan2(8, 2))) < 1e-4  # rate * height * time
+
+
+def test_a_universe_whose_middle_is_0_has_such_a_box():
+    MDAnalysis = pytest.importorskip("MDAnalysis", reason="MDAnalysis is not installed")
+    universe = MDAnalysis.Universe.empty(2, trajectory=True)
+    universe.load_new(np.array([[[-4.5, 0, 0], [4.5, 1, 0]]]), dimensions=np.array([10, 8, 8, 90, 90, 90]))
+    assert carom.read_start(universe).box == ((-5.0, 5.0), (0.0, 8.0))
+
+
+def test_a_gsd_file_gives_what_is_written_in_it(tmp_path):
+    gsd_hoomd = pytest.importorskip("gsd.hoomd", reason="gsd is not installed")
+    frame = gsd_hoomd.Frame()
+    frame.particles.N = 2
+    frame.particles.position = [[-1, 0, 0], [1, 0, 0]]
+    frame.configuration.box = [10, 8, 0, 0, 0, 0]
+    with gsd_hoomd.open(tmp_path / "bare.gsd", "w") as file:
+        file.append(frame)
+    start = carom.read_start(tmp_path / "bare.gsd")
+    assert start.velocities is None and start.radii is None and start.masses is None
+    frame.configuration.box = [10, 8, 0, 0.5, 0, 0]
+    with gsd_hoomd.open(tmp_path / "tilted.gsd", "w") as file:
+        file.append(frame)
+    with pytest.raises(ValueError, match="its box leans by xy = 0.5; a start has a rectangular box"):
+        carom.read_start(tmp_path / "tilted.gsd")
 
 
 def test_what_is_no_start_is_refused(tmp_path):
