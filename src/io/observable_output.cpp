@@ -1,12 +1,14 @@
 #include "io/observable_output.hpp"
 
 #include "io/text_file.hpp"
+#include "text/csv_cell.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 namespace carom {
 
@@ -52,8 +54,8 @@ void write_table(const std::filesystem::path& path, const Table& table) {
   const std::size_t rows = table.columns.empty() ? 0 : table.columns.front().values.size();
   for (std::size_t r = 0; r < rows; ++r) {
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
-      const double value = table.columns[c].values[r];
-      text += std::isfinite(value) ? fmt::format("{}{}", c == 0 ? "" : ",", value) : (c == 0 ? "nan" : ",nan");
+      if (c > 0) text += ',';
+      text += csv_cell(table.columns[c].values[r]);
     }
     text += "\n";
     file.end_record();
@@ -91,7 +93,9 @@ Json observables_json(const std::vector<Measurement>& observables) {
     Json& one = json[measured.name];
     one = Json::object();
     if (!measured.note.empty()) one["note"] = measured.note;
-    for (const Scalar& scalar : measured.scalars) one[scalar.name] = json_of(scalar);
+    // Their names differ: each looked for among those before, as json does by itself, thousands take minutes.
+    std::vector<Json::object_t::value_type>& members = one.get_ref<Json::object_t&>();
+    for (const Scalar& scalar : measured.scalars) members.emplace_back(scalar.name, json_of(scalar));
     for (const Table& table : measured.tables) one["tables"][table.name] = json_of(table);
   }
   return json;

@@ -3,6 +3,7 @@
 #include "io/json.hpp"
 #include "studies/compare/answers.hpp"
 #include "studies/horizon/json.hpp"
+#include "text/csv_cell.hpp"
 
 #include <carom/version.hpp>
 
@@ -268,14 +269,15 @@ std::string compare_csv(const Comparison& comparison) {
       "energy_drift,worst_overlap,found,missed,repeated,spurious,mean_depth,deepest,compared_steps,mistaken_steps\n";
   for (const MethodRun& run : comparison.runs) {
     const std::size_t early = comparison.plan.early;
-    text +=
-        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", run.method.name, run.method.dt, run.seed, run.time,
-                    run.setup_seconds, run.seconds_early, early >= 1 && run.error.size() >= early ? run.error[early - 1] : NAN,
-                    run.seconds, run.error.empty() ? NAN : run.error.back(), horizon_of(comparison.plan, run).value_or(NAN),
-                    run.pair, run.Z, run.collision_rate, run.mean_free_path, run.energy_drift, run.worst_overlap);
+    const auto n = [](double value) { return csv_cell(value); };
+    text += fmt::format(
+        "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", run.method.name, n(run.method.dt), run.seed, n(run.time),
+        n(run.setup_seconds), n(run.seconds_early), n(early >= 1 && run.error.size() >= early ? run.error[early - 1] : NAN),
+        n(run.seconds), n(run.error.empty() ? NAN : run.error.back()), n(horizon_of(comparison.plan, run).value_or(NAN)),
+        run.pair, n(run.Z), n(run.collision_rate), n(run.mean_free_path), n(run.energy_drift), n(run.worst_overlap));
     if (run.counts) {
       const StepCounts& c = *run.counts;
-      text += fmt::format(",{},{},{},{},{},{}", c.found, c.missed, c.repeated, c.spurious, c.mean_depth(), c.deepest);
+      text += fmt::format(",{},{},{},{},{},{}", c.found, c.missed, c.repeated, c.spurious, n(c.mean_depth()), n(c.deepest));
     } else {
       text += ",,,,,,";
     }

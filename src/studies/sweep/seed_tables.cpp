@@ -3,6 +3,7 @@
 #include "io/observable_output.hpp"
 #include "observe/table_column.hpp"
 #include "studies/sweep/numbers.hpp"
+#include "text/csv_cell.hpp"
 #include "text/number_in.hpp"
 
 #include <fmt/format.h>
@@ -226,8 +227,8 @@ std::string seed_table_csv(const SeedTable& mean) {
   text += "\n";
   for (std::size_t r = 0; r < mean.table.columns.front().values.size(); ++r) {
     for (std::size_t c = 0; c < mean.table.columns.size(); ++c) {
-      const double value = mean.table.columns[c].values[r];
-      text += std::isfinite(value) ? fmt::format("{}{}", c == 0 ? "" : ",", value) : (c == 0 ? "nan" : ",nan");
+      if (c > 0) text += ',';
+      text += csv_cell(mean.table.columns[c].values[r]);
     }
     text += "\n";
   }
