@@ -57,6 +57,7 @@ std::optional<double> theory_Z(const Simulation& simulation) {
   const double eta = scene.packing_fraction();
   if (disks.count() < 2 || !why_no_Z(scene.effects).empty() || !scene.effects.potential_steps().empty() || !(eta <= 0.69))
     return std::nullopt;
+  if (detail::effect_named("non_additivity").acts(scene.effects)) return std::nullopt;
   if (std::adjacent_find(disks.radius.begin(), disks.radius.end(), std::not_equal_to<>()) != disks.radius.end())
     return std::nullopt;
   const bool periodic = scene.box.periodic(0) && scene.box.periodic(1);

@@ -119,10 +119,11 @@ function massClasses() {
   return classes;
 }
 
-/// The mean free path by Enskog's theory, 1 / (2 sqrt(2) n sigma g), with g from the equation of state; null for other than equal disks.
+/// The mean free path by Enskog's theory, 1 / (2 sqrt(2) n sigma g), with g from the equation of state; null for other than equal disks,
+/// and under reversal, which leaves their speeds as they are.
 function enskogPath() {
-  const { theoryZ, packing, species } = run.description;
-  if (theoryZ === null || species.length !== 1 || !species[0].uniform || !(packing > 0)) return null;
+  const { theoryZ, packing, species, rule } = run.description;
+  if (theoryZ === null || rule !== "specular" || species.length !== 1 || !species[0].uniform || !(packing > 0)) return null;
   const contact = (theoryZ - 1) / (2 * packing);
   const density = disks / areaAtStart();
   return 1 / (2 * Math.SQRT2 * density * 2 * species[0].radius * contact);

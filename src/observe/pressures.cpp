@@ -4,7 +4,7 @@
 //   Z         = 1 + W / (2 t N kT), W the sum over collisions of sigma times the normal impulse
 //   Z_rate    = 1 + pi (sum over collisions of sigma sqrt(mu)) / (N t sqrt(2 pi kT) c): disks of one kinetic energy meet as
 //               often as those of a Maxwell gas times c = sqrt(d / 2) Gamma(d / 2) / Gamma((d + 1) / 2), d the degrees of
-//               freedom
+//               freedom; not in a circular box, where they may keep an angular momentum
 //   Z_walls   : the virial theorem gives F_x (L_x - 2 r) + F_y (L_y - 2 r) = 2 N kT Z for the mean forces F on opposite walls,
 //               when the run is long
 //   P_ab A    = <sum m v_a v_b> N / (N - 1) + (sum over collisions of r_a J_b) / t, without N / (N - 1) where momentum is not
@@ -164,6 +164,7 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
     const Effects& effects = run_.scene.effects;
     if (!why_no_Z_.empty()) return std::string(why_no_Z_);
     if (effects.collision.rule == CollisionRule::reversal) return "under reversal velocities need not be Maxwell's";
+    if (run_.scene.box.is_circle) return "in a circular box disks keep an angular momentum, and meet at another rate";
     if (!effects.potential_steps().empty())
       return effects.stepped_potential ? "steps of the potential transfer momentum too"
                                        : "wells transfer momentum at their edges too";

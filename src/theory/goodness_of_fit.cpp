@@ -15,7 +15,7 @@ double standard_errors(double probability) {
 }
 
 double snapshot_probability(double distance) {
-  constexpr double variance = 0.1491, amplitude = 2.5;
+  constexpr double variance = 0.1491, amplitude = 2.65;
   return std::min(1.0, amplitude * std::exp(-distance * distance / (2.0 * variance)));
 }
 

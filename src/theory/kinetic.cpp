@@ -97,7 +97,7 @@ double enskog_viscosity(double eta) {
 
 double enskog_conductivity(double eta) {
   const double g = contact_value(eta), b = 2.0 * eta;
-  return 1.02968 * 2.0 / sqrt_pi * (1.0 / g + 1.5 * b + 0.8718 * b * b * g);
+  return 1.02968 * 2.0 / sqrt_pi * (1.0 / g + 1.5 * b + (9.0 / 16.0 + 1.0 / (1.02968 * pi)) * b * b * g);
 }
 
 double relative_rate(double speed) {

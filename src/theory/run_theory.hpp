@@ -76,7 +76,7 @@ class RunTheory {
   bool is_plain_ = false;   ///< equal disks, periodic, nothing acts but the rule
   bool is_smooth_ = false;  ///< and the rule is specular
   Velocities velocities_ = Velocities::unknown;
-  bool conserves_momentum_ = false;
+  int conserved_axes_ = 0;         ///< along which momentum is conserved
   bool moves_as_a_whole_ = false;  ///< along an axis on which momentum is conserved: speeds and ways contain that
   double kT_ = 0.0, eta_ = 0.0, mass_ = 1.0, sigma_ = 1.0;
   double unit_of_time_ = 1.0;  ///< sigma sqrt(m / kT)

@@ -52,9 +52,9 @@ TEST(SnapshotProbability, IsThatOfSimulatedSnapshotsAndNeverBelow) {
     return static_cast<double>(distances.end() - std::upper_bound(distances.begin(), distances.end(), d)) / draws;
   };
   // The points of the doc comment, within five standard errors of 20,000 draws.
-  EXPECT_NEAR(beyond(1.08), 0.05, 5.0 * std::sqrt(0.05 / draws));
-  EXPECT_NEAR(beyond(1.27), 0.01, 5.0 * std::sqrt(0.01 / draws));
-  for (const double d : {0.9, 1.08, 1.27, 1.4}) {
+  EXPECT_NEAR(beyond(1.087), 0.05, 5.0 * std::sqrt(0.05 / draws));
+  EXPECT_NEAR(beyond(1.287), 0.01, 5.0 * std::sqrt(0.01 / draws));
+  for (const double d : {0.9, 1.087, 1.287, 1.4}) {
     const double told = theory::snapshot_probability(d), seen = beyond(d);
     EXPECT_LE(seen, told + 5.0 * std::sqrt(told / draws)) << d;
     EXPECT_GE(seen, 0.6 * told - 5.0 * std::sqrt(told / draws)) << d << ": so much above that nothing would ever be found";
