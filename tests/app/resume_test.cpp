@@ -55,10 +55,11 @@ class Resume : public ProgramTest {
 
 TEST_F(Resume, AfterSigkillEndsWithTheSameFiles) {
   ASSERT_EQ(carom({"run", "gas.toml", "--out", "whole", "-q"}).exit_code, 0);
-  const std::vector<std::string> run = {"run", "gas.toml", "--out", "killed", "-q", "--checkpoint-every", "5000 collisions"};
-  const Outcome killed = kill_when(run, SIGKILL, [&] { return is_there("killed/checkpoint-previous.h5"); });
-  if (killed.exit_code == 0) GTEST_SKIP() << "the run was over before it could be killed";
-  EXPECT_EQ(killed.exit_code, 128 + SIGKILL);
+  const std::vector<std::string> run = {"run", "gas.toml",           "--out",          "killed", "--force",
+                                        "-q",  "--checkpoint-every", "5000 collisions"};
+  const Outcome killed =
+      ended_early([&] { return kill_when(run, SIGKILL, [&] { return is_there("killed/checkpoint-previous.h5"); }); });
+  ASSERT_EQ(killed.exit_code, 128 + SIGKILL);
   EXPECT_FALSE(is_there("killed/summary.json"));
   const Outcome resumed = carom({"resume", "killed"});
   EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
@@ -70,10 +71,11 @@ TEST_F(Resume, AfterSigkillEndsWithTheSameFiles) {
 
 TEST_F(Resume, AfterASignalItSaysHow) {
   ASSERT_EQ(carom({"run", "gas.toml", "--out", "whole", "-q", "--set", "run.collisions=120000"}).exit_code, 0);
-  const Outcome stopped = kill_when({"run", "gas.toml", "--out", "stopped", "--set", "run.collisions=120000"}, SIGTERM,
-                                    [&] { return is_there("stopped/trajectory.h5md.partial"); });
-  if (stopped.exit_code == 0) GTEST_SKIP() << "the run was over before it could be stopped";
-  EXPECT_EQ(stopped.exit_code, 130);
+  const Outcome stopped = ended_early([&] {
+    return kill_when({"run", "gas.toml", "--out", "stopped", "--force", "--set", "run.collisions=120000"}, SIGTERM,
+                     [&] { return is_there("stopped/trajectory.h5md.partial"); });
+  });
+  ASSERT_EQ(stopped.exit_code, 130);
   EXPECT_THAT(stopped.err, HasSubstr(" resume stopped goes on from there"));
   EXPECT_EQ(json::parse(text_of(file("stopped/summary.json")))["stopped"], "interrupted");
   EXPECT_EQ(carom({"resume", "stopped", "-q"}).exit_code, 0);

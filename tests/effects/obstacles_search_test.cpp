@@ -92,6 +92,7 @@ TEST_F(ObstacleSearch, TheDeepestOverlapIsThatOfAllShapesAskedOneByOne) {
 }
 
 TEST_F(ObstacleSearch, AsksWhoeverMattersOnPathsWithoutEnd) {
+  int met = 0;
   for (int n = 0; n < 300; ++n) {
     const Box box = box_of(between(3.0, 12.0), between(3.0, 12.0), boundary(), Boundary::periodic);
     const std::vector<Obstacle> list = crowd(box, 12, 1.0);
@@ -103,7 +104,9 @@ TEST_F(ObstacleSearch, AsksWhoeverMattersOnPathsWithoutEnd) {
     const auto slow = AllObstacles(box, list).next({r, v, {0.0, 0.0}, 0.1, 0.0}, infinity<double>, 40);
     ASSERT_EQ(fast.time, slow.time) << n;
     ASSERT_EQ(fast.obstacle, slow.obstacle) << n;
+    ++met;
   }
+  EXPECT_GT(met, 100);
 }
 
 template <class Real>
@@ -116,6 +119,7 @@ void finds_what_double_finds() {
   list.push_back(fixed_segment({1.0, 1.0}, {5.0, 3.0}));
   const Obstacles<double> in_double(box, list);
   const Obstacles<Real> in_real(box, list);
+  int met = 0;
   for (int n = 0; n < 300; ++n) {
     const Vec2<double> r(8 * unit(random), 8 * unit(random));
     const Vec2<double> v(unit(random) - 0.5, unit(random) - 0.5);
@@ -124,7 +128,9 @@ void finds_what_double_finds() {
     const auto found = in_real.next(r.cast<Real>(), v.cast<Real>(), g.cast<Real>(), Real(0.1f), Real(0), Real(20));
     if (expected.obstacle < 0 || expected.obstacle != found.obstacle) continue;  // none, or grazing
     EXPECT_NEAR(static_cast<double>(found.time), expected.time, 1e-2) << n;
+    ++met;
   }
+  EXPECT_GT(met, 200);
 }
 
 TEST_F(ObstacleSearch, FloatMeetsWhatDoubleMeets) { finds_what_double_finds<float>(); }

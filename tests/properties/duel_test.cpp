@@ -35,18 +35,16 @@ RC_GTEST_PROP(PropertyDuel, EnginesStaySoundAndAgreeOnScenesWithAnyEffects, ()) 
 }
 
 TEST(PropertyDuel, EnginesStaySoundAndAgreeOnWhatFuzzingHasFound) {
-  int scenes = 0;
   for (const auto& entry : std::filesystem::directory_iterator(CAROM_SOURCE_DIR "/tests/fuzz/findings/physics")) {
     std::ifstream file(entry.path(), std::ios::binary);
     const std::vector<std::uint8_t> bytes(std::istreambuf_iterator<char>(file), {});
     SCOPED_TRACE(entry.path().filename().string());
     try {
       EXPECT_EQ(duel(parse_scene(decoded_scene(bytes))), "");
-      ++scenes;
-    } catch (const SceneError&) {  // the scene check has come to refuse it
+    } catch (const SceneError& error) {
+      ADD_FAILURE() << "the scene check refuses it, so that it tests nothing: " << error.what();
     }
   }
-  EXPECT_GT(scenes, 10);
 }
 
 }  // namespace

@@ -53,8 +53,7 @@ def test_samples_and_events_are_those_of_the_program(path: Path, tmp_path: Path,
         assert np.array_equal(frames.time, particles["position/time"])
         assert np.array_equal(frames.positions, particles["position/value"][:, :, :2])
         assert np.array_equal(frames.velocities, particles["velocity/value"][:, :, :2])
-        if frames.images is not None:
-            assert np.array_equal(frames.images, particles["image/value"][:, :, :2])
+        assert np.array_equal(frames.images, particles["image/value"][:, :, :2])
         assert np.array_equal(frames.radii, particles["radius"])
         for name in carom.EVENT.names:
             assert np.array_equal(events[name], file["events"][name]), name

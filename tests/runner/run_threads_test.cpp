@@ -48,7 +48,7 @@ TEST(RunThreads, AreOneWhereASimulationCannotBeSharedOut) {
   EXPECT_THAT(suggested.words, StartsWith("one core: drag slows the clock"));
 }
 
-TEST(RunThreads, AreNeverMoreThanThereAreProcessors) {
+TEST(FreeProcessors, AreAtLeastOneAndAtMostAll) {
   EXPECT_GE(free_processors(), 1);
   EXPECT_LE(free_processors(), processors());
 }

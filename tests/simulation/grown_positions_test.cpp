@@ -8,7 +8,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -132,12 +131,8 @@ TEST(DenseStart, KeepsClearOfObstacles) {
 }
 
 TEST(PhysicsDenseStart, ReachesTheDensitiesWhereDisksJam) {
-  for (const double ratio : {1.0, 1.4}) {
-    const auto before = std::chrono::steady_clock::now();
+  for (const double ratio : {1.0, 1.4})
     expect_sound(dense(1000, ratio == 1.0 ? 0.84 : 0.83, Boundary::periodic, Boundary::periodic, ratio));
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
-    RecordProperty(ratio == 1.0 ? "seconds_equal" : "seconds_mixture", std::to_string(seconds));
-  }
 }
 
 TEST(PhysicsDenseStart, HasNoOrder) {

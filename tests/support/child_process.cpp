@@ -54,4 +54,11 @@ bool wait_until(const std::function<bool()>& condition) {
   return false;
 }
 
+Outcome ended_early(const std::function<Outcome()>& run) {
+  for (int tries = 1;; ++tries) {
+    Outcome outcome = run();
+    if (outcome.exit_code != 0 || tries == 10) return outcome;
+  }
+}
+
 }  // namespace carom::test

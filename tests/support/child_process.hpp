@@ -29,4 +29,8 @@ Outcome run_program(const std::filesystem::path& directory, std::vector<std::str
 /// True as soon as `condition` is; false when it is not after half a minute.
 bool wait_until(const std::function<bool()>& condition);
 
+/// Returns the outcome of the first of ten runs that does not come to its end before `run`, which starts and kills it, has done
+/// so.
+Outcome ended_early(const std::function<Outcome()>& run);
+
 }  // namespace carom::test

@@ -13,12 +13,6 @@ namespace {
 
 using theory::single_file;
 
-TEST(SingleFile, IsTheOneOfAnIndependentSolution) {
-  // To the last digit given, of a solution of the same integral equation by a program of its own.
-  EXPECT_NEAR(single_file(1.8, 1.0).force, 6.637817, 5e-7);
-  EXPECT_NEAR(single_file(1.8, 1.0).wall_pressure, 4.173444, 5e-7);
-}
-
 TEST(SingleFile, OfFewDisksHasTheirSecondVirialCoefficient) {
   // The mean of the closest distance along the channel over both heights; the next term is of the order of its square.
   using Rule = boost::math::quadrature::gauss<double, 30>;
@@ -94,12 +88,6 @@ TEST(SingleFile, OfManyDisksIsThatOfInfinitelyMany) {
     EXPECT_NEAR(2.0 * twice.wall_pressure - many.wall_pressure, infinite.wall_pressure, 1e-4);
     EXPECT_NEAR(2.0 * twice.energy - many.energy, infinite.energy, 1e-5);
   }
-}
-
-TEST(SingleFile, FirstTermInOneOverN) {
-  // The pressure on the walls of N disks was seen to be less by some 3.2 / N.
-  const double infinite = single_file(1.8, 1.0).wall_pressure;
-  EXPECT_NEAR(400.0 * (single_file(1.8, 1.0, 400).wall_pressure - infinite), -3.18, 0.03);
 }
 
 /// Steps of a potential for channels of width up to 1.6, where second neighbours are 1.6 apart at least, to rounding.
