@@ -27,6 +27,12 @@ constexpr std::int64_t most_disks_drawn = 1'000'000;
 
 // Three coordinates of position and of velocity, and three image flags, for one disk in one frame.
 constexpr double bytes_per_disk_and_frame = 6 * sizeof(double) + 3 * sizeof(std::int32_t);
+// Step, time, edges of the box, energies and momenta of one frame; more where effects keep numbers of their own.
+constexpr double bytes_per_frame = 24 * sizeof(double);
+// Four numbers of some 18 digits and what goes with them, for one disk in one frame.
+constexpr double bytes_of_text_per_disk_and_frame = 100;
+// Time, disks, velocities and where they touched.
+constexpr double bytes_per_event = 73;
 
 std::string start_and_engine(const Scene& scene, const Simulation& simulation) {
   const double kT = kinetic_temperature(scene.box, scene.effects, simulation.disks(), simulation.state());
@@ -46,22 +52,27 @@ std::string conserved_words(const Scene& scene, const Effects& whole_run) {
   return scene.changes.empty() || words == "nothing" ? words : "between changes: " + words;
 }
 
-std::string files(const Scene& scene) {
+/// `collisions`: how many are expected, if that is known.
+std::string files(const Scene& scene, std::optional<double> collisions) {
   const std::optional<std::uint64_t> samples = expected_samples(scene);
   std::string text = "  files       summary.json";
   const bool sampled = scene.run.is_sampled();
+  const double frames = static_cast<double>(samples.value_or(0)), disks = static_cast<double>(scene.disk_count());
+  const std::string size_of_text =
+      samples ? fmt::format(" (some {})", size(frames * disks * bytes_of_text_per_disk_and_frame)) : "";
   if ((scene.output.trajectory && sampled) || scene.output.events || !scene.observe.empty()) {
     text += ", trajectory.h5md";
     if (sampled && samples && scene.output.trajectory) {
-      text +=
-          fmt::format(" ({}, up to {})", counted(*samples, "frame"),
-                      size(static_cast<double>(*samples) * static_cast<double>(scene.disk_count()) * bytes_per_disk_and_frame));
+      text += fmt::format(" ({}, some {})", counted(*samples, "frame"),
+                          size(frames * (disks * bytes_per_disk_and_frame + bytes_per_frame)));
     }
   }
-  if (scene.output.xyz && sampled) text += ", trajectory.xyz";
-  if (scene.output.csv && sampled) text += ", samples.csv";
+  if (scene.output.xyz && sampled) text += ", trajectory.xyz" + size_of_text;
+  if (scene.output.csv && sampled) text += ", samples.csv" + size_of_text;
   if (!scene.observe.empty()) text += ", tables of observables";
-  if (scene.output.events) text += "; all collisions are stored";
+  if (scene.output.events)
+    text += fmt::format("; all collisions are stored, some {} {}", collisions ? size(*collisions * bytes_per_event) : "73 bytes",
+                        collisions ? "in all" : "each");
   return text + "\n";
 }
 
@@ -84,12 +95,15 @@ ExitCode check(const CheckOptions& options) {
                           grouped(most_disks_drawn), expected_bytes_per_disk(scene.effects));
   fmt::print("{} is a valid scene{}\n\n", scene.source, scene.title.empty() ? "" : fmt::format(": {}", scene.title));
   fmt::print("{}  conserved   {}\n{}", describe(scene), conserved_words(scene, whole_run), start);
+  std::optional<double> collisions;
   if (trial) {
     const SuggestedThreads suggested = suggested_threads(trial->simulation());
-    fmt::print("  threads     {}\n  cost        {}{}\n", suggested.words, cost_words(trial->run()),
+    const ExpectedCost cost = trial->run();
+    collisions = cost.collisions;
+    fmt::print("  threads     {}\n  cost        {}{}\n", suggested.words, cost_words(cost),
                suggested.threads > 1 ? "; the trial had one core" : "");
   }
-  fmt::print("{}", files(scene));
+  fmt::print("{}", files(scene, collisions));
   if (const std::string missing = absent(whole_run); !missing.empty()) fmt::print("\nNot simulated: {}.\n", missing);
   return exit_done;
 }
