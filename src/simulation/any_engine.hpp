@@ -49,7 +49,7 @@ class AnyEngine {
     return run_until(target, pair_limit, event_limit);
   }
   /// Returns why set_threads() cannot share the disks out to several cores, in half a sentence; empty where it can.
-  [[nodiscard]] virtual std::string why_not_threads() const { return "this engine runs on one core"; }
+  [[nodiscard]] virtual std::string why_not_threads() const { return "of the engines only fast and general share disks out"; }
   /// Shares the disks out from now on. Requires an empty why_not_threads().
   virtual void set_threads(const Threads& /*threads*/) {}
   [[nodiscard]] virtual ThreadCounts thread_counts() const { return {}; }
