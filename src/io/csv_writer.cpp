@@ -20,11 +20,16 @@ CsvWriter::CsvWriter(std::filesystem::path path, bool rough) : file_(std::move(p
 void CsvWriter::sample(const State& state) {
   const std::string time = csv_cell(state.time);
   for (Eigen::Index i = 0; i < state.positions.cols(); ++i) {
-    const auto out = std::back_inserter(file_.buffer());
-    // As csv_cell() writes them.
-    fmt::format_to(out, "{},{},{:#},{:#},{:#},{:#}", time, i, state.positions(0, i), state.positions(1, i),
-                   state.velocities(0, i), state.velocities(1, i));
-    if (rough_) fmt::format_to(out, ",{:#}", state.spins.size() > 0 ? state.spins[i] : 0.0);
+    std::string& text = file_.buffer();
+    text += time;
+    fmt::format_to(std::back_inserter(text), ",{}", i);
+    const auto add = [&text](double value) {
+      text += ',';
+      append_csv_cell(text, value);
+    };
+    for (const double coordinate : state.positions.col(i)) add(coordinate);
+    for (const double component : state.velocities.col(i)) add(component);
+    if (rough_) add(state.spins.size() > 0 ? state.spins[i] : 0.0);
     file_.buffer() += '\n';
     file_.end_line();
   }

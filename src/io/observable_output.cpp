@@ -55,7 +55,7 @@ void write_table(const std::filesystem::path& path, const Table& table) {
   for (std::size_t r = 0; r < rows; ++r) {
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
       if (c > 0) text += ',';
-      text += csv_cell(table.columns[c].values[r]);
+      append_csv_cell(text, table.columns[c].values[r]);
     }
     text += "\n";
     file.end_record();

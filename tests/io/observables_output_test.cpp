@@ -57,7 +57,7 @@ TEST(ObservablesOutput, TableIsACommentAHeadingAndRowsThatReadBack) {
   const TemporaryDirectory directory;
   write_table(directory.path() / "t.csv", hand_made()[0].tables[0]);
   EXPECT_EQ(text_of(directory.path() / "t.csv"),
-            "# averages over collisions; units: time, 1 / time\nmiddle,density\n0.25,0.3333333333333333\n0.75,nan\n");
+            "# averages over collisions; units: time, 1 / time\nmiddle,density\n0.25,0.3333333333333333\n0.75,NaN\n");
   EXPECT_THAT(describe_file(directory.path() / "t.csv"), HasSubstr("table of an observable"));
   EXPECT_THAT(describe_file(directory.path() / "t.csv"), HasSubstr("middle,density"));
 }

@@ -250,7 +250,7 @@ TEST(CompareCsv, HasOneLinePerRunAndAsManyFieldsInEach) {
   for (; std::getline(text, line); ++lines) EXPECT_EQ(std::count(line.begin(), line.end(), ','), std::ranges::count(header, ','));
   EXPECT_EQ(lines, comparison.runs.size());
   EXPECT_THAT(compare_csv(comparison),
-              HasSubstr("fast,0,1,8,0,0.001,1e-15,0.004,8e-15,nan,10000,1.98,"));  // shortest digits that give the same bits
+              HasSubstr("fast,0.0,1,8.0,0.0,0.001,1e-15,0.004,8e-15,NaN,10000,1.98,"));  // shortest digits that give the same bits
 }
 
 }  // namespace

@@ -228,7 +228,7 @@ std::string seed_table_csv(const SeedTable& mean) {
   for (std::size_t r = 0; r < mean.table.columns.front().values.size(); ++r) {
     for (std::size_t c = 0; c < mean.table.columns.size(); ++c) {
       if (c > 0) text += ',';
-      text += csv_cell(mean.table.columns[c].values[r]);
+      append_csv_cell(text, mean.table.columns[c].values[r]);
     }
     text += "\n";
   }
