@@ -8,9 +8,10 @@
 #include <set>
 #include <vector>
 
+namespace carom::test {
 namespace {
 
-using namespace carom::bench;
+using namespace bench;
 
 struct Collision {
   Id i, j;
@@ -172,3 +173,4 @@ TEST(EventGraph, HaloIsWorkedOnTwice) {
 }
 
 }  // namespace
+}  // namespace carom::test

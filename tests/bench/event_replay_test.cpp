@@ -12,10 +12,10 @@
 #include <random>
 #include <vector>
 
+namespace carom::test {
 namespace {
 
-using namespace carom;
-using namespace carom::bench;
+using namespace bench;
 using testing::UnorderedElementsAreArray;
 
 struct Recorded {
@@ -25,7 +25,7 @@ struct Recorded {
 };
 
 Recorded recorded_gas(std::int64_t disks, std::uint64_t collisions) {
-  Simulation simulation = make_simulation(test::gas_scene(disks, 0.4, Boundary::periodic));
+  Simulation simulation = make_simulation(gas_scene(disks, 0.4, Boundary::periodic));
   Recorded run{simulation.scene().box, simulation.state(), {}};
   simulation.record_events(true);
   simulation.run_until(1e9, {.collisions = collisions});
@@ -139,3 +139,4 @@ TEST(EventReplay, FirstDifferenceSeesAnotherPartnerAndAMissedCollision) {
 }
 
 }  // namespace
+}  // namespace carom::test

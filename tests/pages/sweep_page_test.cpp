@@ -15,7 +15,7 @@
 #include <variant>
 #include <vector>
 
-namespace carom {
+namespace carom::test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -112,15 +112,15 @@ TEST(SweepPage, LeavesOutNumbersThatAreTheSameEverywhereAndListsWhatFailed) {
 }
 
 TEST(BrowserSweepPage, DrawsItsPlots) {
-  if (!test::has_browser()) GTEST_SKIP() << test::no_browser;
+  if (!has_browser()) GTEST_SKIP() << no_browser;
   const Sweep sweep = two_boxes();
-  const test::TemporaryDirectory directory;
-  test::write_text(directory.file("report.html"), html_page(sweep_page(sweep, results_of(sweep))));
-  const std::string dom = test::dump_dom(directory.file("report.html"));
+  const TemporaryDirectory directory;
+  write_text(directory.file("report.html"), html_page(sweep_page(sweep, results_of(sweep))));
+  const std::string dom = dump_dom(directory.file("report.html"));
   const std::string root = dom.substr(0, dom.find("<head>"));
   EXPECT_THAT(root, HasSubstr("data-errors=\"\""));
   EXPECT_THAT(root, HasSubstr("data-plots=\"1\""));
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::test

@@ -10,7 +10,7 @@
 #include <bit>
 #include <string_view>
 
-namespace carom {
+namespace carom::test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -149,4 +149,4 @@ TEST(TerminalPicture, AnEmptyBoxIsAFrame) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::test

@@ -11,13 +11,13 @@
 #include <stdexcept>
 #include <string>
 
-namespace carom {
+namespace carom::test {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-Scene lattice(std::int64_t disks) { return test::gas_scene(disks, 0.4, Boundary::periodic); }
+Scene lattice(std::int64_t disks) { return gas_scene(disks, 0.4, Boundary::periodic); }
 
 Scene with_drag() {
   Scene scene = lattice(100);
@@ -88,4 +88,4 @@ TEST(RunThreads, OfASceneWithObservablesMayBeTwoInAnyCase) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::test

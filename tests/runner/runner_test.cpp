@@ -19,10 +19,9 @@
 #include <string>
 #include <vector>
 
-namespace carom {
+namespace carom::test {
 namespace {
 
-using test::TemporaryDirectory;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -103,7 +102,7 @@ TEST(Runner, WritesAllFilesOfARunAndPrintsNothing) {
     EXPECT_THAT(done.outcome.files, Contains(name));
     EXPECT_TRUE(std::filesystem::exists(place.path() / "gas" / name)) << name;
   }
-  EXPECT_THAT(test::text_of(place.path() / "gas/summary.json"), HasSubstr(plain_hash()));
+  EXPECT_THAT(text_of(place.path() / "gas/summary.json"), HasSubstr(plain_hash()));
 }
 
 TEST(Runner, SavesARunThatIsStoppedAndGoesOnToTheSameBits) {
@@ -122,7 +121,7 @@ TEST(Runner, SavesARunThatIsStoppedAndGoesOnToTheSameBits) {
   EXPECT_TRUE(runner.saved());
   const RunnerOutcome rest = runner.run();
   EXPECT_EQ(rest.report.state_hash, whole.outcome.report.state_hash);
-  EXPECT_EQ(test::text_of(place.path() / "part/samples.csv"), test::text_of(place.path() / "whole/samples.csv"));
+  EXPECT_EQ(text_of(place.path() / "part/samples.csv"), text_of(place.path() / "whole/samples.csv"));
 }
 
 TEST(Runner, HandsTheStartOfTheMeasuredRunToWhoeverCompletesTheReport) {
@@ -138,7 +137,7 @@ TEST(Runner, HandsTheStartOfTheMeasuredRunToWhoeverCompletesTheReport) {
     report.title = "completed";
   }});
   EXPECT_EQ(calls, 1);
-  EXPECT_THAT(test::text_of(place.path() / "gas/summary.json"), HasSubstr("completed"));
+  EXPECT_THAT(text_of(place.path() / "gas/summary.json"), HasSubstr("completed"));
 }
 
 TEST(Runner, SaysThatAReportFailedAndKeepsTheRun) {
@@ -207,4 +206,4 @@ TEST(Runner, ObservablesOfTheProgramAreMeasuredAndGoOnFromACheckpoint) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::test

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+namespace carom::test {
 namespace {
 
 const std::filesystem::path directory = std::filesystem::path(CAROM_SOURCE_DIR) / "tests" / "scene" / "broken";
@@ -44,9 +45,9 @@ class BrokenScene : public testing::TestWithParam<std::string> {};
 TEST_P(BrokenScene, IsRefusedWithItsSentence) {
   const std::filesystem::path path = directory / (GetParam() + ".toml");
   try {
-    carom::load_scene(path.string());
+    load_scene(path.string());
     FAIL() << "the scene was accepted";
-  } catch (const carom::SceneError& error) {
+  } catch (const SceneError& error) {
     EXPECT_EQ(without_directory(error.what()), expected_sentence(path));
   }
 }
@@ -61,3 +62,4 @@ std::string test_name(const testing::TestParamInfo<std::string>& scene) {
 INSTANTIATE_TEST_SUITE_P(All, BrokenScene, testing::ValuesIn(broken_scenes()), test_name);
 
 }  // namespace
+}  // namespace carom::test

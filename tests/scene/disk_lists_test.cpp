@@ -13,16 +13,11 @@
 #include <string>
 #include <vector>
 
-namespace carom {
+namespace carom::test {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing_support::changed;
-using testing_support::first_difference;
-using testing_support::Folder;
-using testing_support::parse_changed;
-using testing_support::refusal_of;
 
 std::string ten(const std::string& number) {
   std::string list = "[" + number;
@@ -121,4 +116,4 @@ TEST(DiskLists, TheResolvedSceneHasThem) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::test

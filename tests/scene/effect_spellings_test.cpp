@@ -5,11 +5,8 @@
 
 #include "scene/scene_texts.hpp"
 
-namespace carom {
+namespace carom::test {
 namespace {
-
-using testing_support::changed;
-using testing_support::small_scene;
 
 /// The small scene, in a box [0, 10] x [0, 8] with walls, with more tables at its end.
 Scene with(const std::string& tables) { return parse_scene(std::string(small_scene) + tables, "small.toml"); }
@@ -200,4 +197,4 @@ TEST(EffectSpellings, PotentialsMayBeThereWithoutDisks) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::test

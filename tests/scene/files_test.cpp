@@ -7,12 +7,10 @@
 
 #include <cstdint>
 
-namespace carom {
+namespace carom::test {
 namespace {
 
 using testing::HasSubstr;
-using testing_support::Folder;
-using testing_support::refusal_of;
 
 constexpr std::size_t ten_megabytes = 10'000'000;
 
@@ -72,8 +70,7 @@ TEST(SceneFiles, DeepKeysAreRefusedWhereTheyStand) {
 
 TEST(SceneFiles, DotsInStringsAndCommentsAreNotKeys) {
   const std::string dots(100, '.');
-  const std::string text =
-      "# " + dots + "\ntitle = \"" + dots + "\\\"" + dots + "\" # " + dots + "\n" + std::string(testing_support::small_scene);
+  const std::string text = "# " + dots + "\ntitle = \"" + dots + "\\\"" + dots + "\" # " + dots + "\n" + std::string(small_scene);
   EXPECT_EQ(parse_scene(text).title, dots + "\"" + dots);
 }
 
@@ -82,4 +79,4 @@ TEST(SceneFiles, DevicesAreRefused) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::test

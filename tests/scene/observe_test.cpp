@@ -7,12 +7,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace carom {
+namespace carom::test {
 namespace {
 
 using ::testing::HasSubstr;
-using testing_support::changed;
-using testing_support::first_difference;
 
 Scene observed(const std::string& table, const std::string& boundary = "periodic") {
   return parse_scene(changed({{"walls", boundary}}) + "\n[observe]\n" + table);
@@ -102,4 +100,4 @@ TEST(Observe, EveryExampleOfTheCatalogueIsAccepted) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::test

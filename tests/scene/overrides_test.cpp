@@ -4,11 +4,8 @@
 
 #include "scene/scene_texts.hpp"
 
-namespace carom {
+namespace carom::test {
 namespace {
-
-using testing_support::refusal_of;
-using testing_support::small_scene;
 
 Scene overridden(const std::vector<std::string>& overrides) { return parse_scene(std::string(small_scene), "s.toml", overrides); }
 std::string refusal(const std::string& override_text) {
@@ -79,7 +76,7 @@ TEST(Overrides, ObservablesThatDoNotExistNameTheNearest) {
 }
 
 TEST(Overrides, EffectsMayBeAddedAndAreCheckedHereToo) {
-  const Scene scene = parse_scene(std::string(testing_support::small_scene), "s",
+  const Scene scene = parse_scene(std::string(small_scene), "s",
                                   {"gravity.acceleration=[0, -1]", "obstacles=[{ disk = { centre = [5, 4], radius = 1 } }]"});
   EXPECT_EQ(scene.effects.gravity->acceleration.y(), -1.0);
   EXPECT_EQ(scene.effects.obstacles.size(), 1U);
@@ -116,9 +113,9 @@ TEST(Overrides, BarredWaysAreNamed) {
 }
 
 TEST(Overrides, WhatTheFileGetsWrongStillNamesTheFile) {
-  const std::string text = testing_support::changed({{"mass = 1.0", "mass = -1.0"}});
+  const std::string text = changed({{"mass = 1.0", "mass = -1.0"}});
   EXPECT_EQ(refusal_of([&] { parse_scene(text, "s.toml", {"run.time=2"}); }).substr(0, 11), "s.toml:9:8:");
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::test

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace carom {
+namespace carom::test {
 namespace {
 
 const std::filesystem::path scenes = std::filesystem::path(CAROM_SOURCE_DIR) / "docs" / "scenes";
@@ -137,4 +137,4 @@ TEST(FormatPage, NamesEveryKeyOfAResolvedScene) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::test

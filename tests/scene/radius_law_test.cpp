@@ -21,13 +21,11 @@
 #include <string>
 #include <vector>
 
-namespace carom {
+namespace carom::test {
 namespace {
 
 using detail::same_exp;
 using detail::same_log1p;
-using testing_support::first_difference;
-using testing_support::parse_changed;
 
 constexpr const char* lognormal = "radius = { lognormal = { mean = 0.2, deviation = 0.05 } }";
 constexpr const char* uniform = "radius = { uniform = [0.1, 0.3] }";
@@ -182,4 +180,4 @@ TEST(RadiusLaw, ItsExponentialAndLogarithmAreThoseOfTheLibraryToRounding) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::test

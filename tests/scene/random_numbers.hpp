@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <string>
 
-namespace carom::testing_support {
+namespace carom::test {
 
 /// Any finite double, the extreme ones as often as the usual.
 inline double any_double() {
@@ -34,4 +34,4 @@ inline std::string pair_text(double a, double b) {
   return fmt::format("[{}, {}]", detail::number_text(a), detail::number_text(b));
 }
 
-}  // namespace carom::testing_support
+}  // namespace carom::test

@@ -10,12 +10,12 @@
 #include <cmath>
 #include <string>
 
-namespace carom {
+namespace carom::test {
 namespace {
 
 Eigen::Matrix2Xd positions_of(const std::string& positions, int count, const std::string& boundary = "\"walls\"") {
-  const std::string text = testing_support::changed(
-      {{"\"random\"", positions}, {"count = 10", "count = " + std::to_string(count)}, {"\"walls\"", boundary}});
+  const std::string text =
+      changed({{"\"random\"", positions}, {"count = 10", "count = " + std::to_string(count)}, {"\"walls\"", boundary}});
   return make_simulation(parse_scene(text)).state().positions;
 }
 
@@ -34,9 +34,9 @@ TEST(Regions, ARectangleHoldsItsDisks) {
 TEST(Regions, ACircleHoldsItsDisksAndIsFilledEvenly) {
   double inner = 0.0, all = 0.0;
   for (int seed = 1; seed <= 200; ++seed) {
-    const std::string text = testing_support::changed({{"\"random\"", "{ random = { centre = [5, 4], radius = 3.25 } }"},
-                                                       {"radius = 0.25", "radius = 1e-3"},
-                                                       {"time = 5.0", "time = 5.0\nseed = " + std::to_string(seed)}});
+    const std::string text = changed({{"\"random\"", "{ random = { centre = [5, 4], radius = 3.25 } }"},
+                                      {"radius = 0.25", "radius = 1e-3"},
+                                      {"time = 5.0", "time = 5.0\nseed = " + std::to_string(seed)}});
     const Eigen::Matrix2Xd found = make_simulation(parse_scene(text)).state().positions;
     const Eigen::RowVectorXd distance = (found.colwise() - Eigen::Vector2d(5.0, 4.0)).colwise().norm();
     EXPECT_LE(distance.maxCoeff(), 3.249);
@@ -48,7 +48,7 @@ TEST(Regions, ACircleHoldsItsDisksAndIsFilledEvenly) {
 
 TEST(Regions, ACircleIsFilledByOneDisk) {
   const Eigen::Matrix2Xd found =
-      make_simulation(parse_scene(testing_support::changed(
+      make_simulation(parse_scene(changed(
                           {{"\"random\"", "{ random = { centre = [5, 4], radius = 0.2501 } }"}, {"count = 10", "count = 1"}})))
           .state()
           .positions;
@@ -70,7 +70,7 @@ TEST(Regions, OtherSpeciesAreDrawnAsWithout) {
       "[[disks]]\nname = \"more\"\ncount = 3\nradius = 0.1\nmass = 1.0\npositions = { random = { x = [9, 10], y = [0, 8] } "
       "}\nvelocities = "
       "\"rest\"\n";
-  const std::string text(testing_support::small_scene);
+  const std::string text(small_scene);
   const Eigen::Matrix2Xd alone = make_simulation(parse_scene(text)).state().positions;
   const Eigen::Matrix2Xd both = make_simulation(parse_scene(text + second)).state().positions;
   EXPECT_EQ(both.leftCols(10), alone);
@@ -78,11 +78,11 @@ TEST(Regions, OtherSpeciesAreDrawnAsWithout) {
 }
 
 TEST(Regions, ThatAreFullAreToldSo) {
-  EXPECT_NE(testing_support::refusal_of([] {
+  EXPECT_NE(refusal_of([] {
               (void)positions_of("{ random = { x = [0, 2], y = [0, 2] } }", 16);
             }).find("disks.0.positions.random after"),
             std::string::npos);
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::test

@@ -8,17 +8,10 @@
 #include "scene/scene_equality.hpp"
 #include "scene/scene_texts.hpp"
 
-namespace carom {
+namespace carom::test {
 namespace {
 
 using detail::number_text;
-using testing_support::any_double;
-using testing_support::changed;
-using testing_support::first_difference;
-using testing_support::moderate_double;
-using testing_support::moderate_positive_double;
-using testing_support::pair_text;
-using testing_support::unit_interval;
 
 TEST(ResolvedEffects, PrintsWhatIsThere) {
   const std::string effects = R"([collision]
@@ -179,4 +172,4 @@ RC_GTEST_PROP(PropertyEffects, ReadingTheResolvedEffectsGivesTheSameBits, ()) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::test

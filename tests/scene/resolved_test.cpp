@@ -11,20 +11,13 @@
 
 #include <limits>
 
-namespace carom {
+namespace carom::test {
 namespace {
 
 using detail::number_text;
-using testing_support::any_double;
-using testing_support::changed;
-using testing_support::first_difference;
-using testing_support::moderate_double;
-using testing_support::moderate_positive_double;
-using testing_support::pair_text;
-using testing_support::unit_interval;
 
 TEST(Resolved, PrintsEveryDefault) {
-  EXPECT_EQ(resolved_toml(parse_scene(std::string(testing_support::small_scene))), R"(title = ""
+  EXPECT_EQ(resolved_toml(parse_scene(std::string(small_scene))), R"(title = ""
 
 [box]
 x = [0.0, 10.0]
@@ -110,7 +103,7 @@ TEST(Resolved, RegionsSurvive) {
 }
 
 TEST(Resolved, ChangesSurvive) {
-  const Scene scene = parse_scene(std::string(testing_support::small_scene) + R"(
+  const Scene scene = parse_scene(std::string(small_scene) + R"(
 [[obstacles]]
 segment = { from = [0.0, 0.1], to = [0.3, 0.0] }
 [[changes]]
@@ -139,20 +132,20 @@ TEST(Resolved, AnEmptyBoxSurvives) {
 TEST(Resolved, StringsSurviveWhateverTheyHold) {
   const Scene scene =
       parse_scene("title = \"quote \\\" backslash \\\\ tab \\t newline \\n bell \\u0007 rubout \\u007F \\u00e9 \\U0001F3B1\"\n" +
-                  std::string(testing_support::small_scene));
+                  std::string(small_scene));
   EXPECT_EQ(scene.title, "quote \" backslash \\ tab \t newline \n bell \a rubout \x7f \xC3\xA9 \xF0\x9F\x8E\xB1");
   EXPECT_EQ(parse_scene(resolved_toml(scene)).title, scene.title);
 }
 
 TEST(Resolved, OverridesAreInIt) {
-  const Scene scene = parse_scene(std::string(testing_support::small_scene), "s", {"run.seed=7"});
+  const Scene scene = parse_scene(std::string(small_scene), "s", {"run.seed=7"});
   EXPECT_THAT(resolved_toml(scene), testing::HasSubstr("seed = 7\n"));
 }
 
 /// Valid scenes in text: every spelling, with numbers that need all their digits.
 class SceneMaker {
  public:
-  explicit SceneMaker(const testing_support::Folder& folder) : folder_(folder) {}
+  explicit SceneMaker(const Folder& folder) : folder_(folder) {}
 
   std::string make() {
     lower_ = {10.0 * unit_interval() - 5.0, 10.0 * unit_interval() - 5.0};
@@ -265,12 +258,12 @@ class SceneMaker {
     return text;
   }
 
-  const testing_support::Folder& folder_;
+  const Folder& folder_;
   Eigen::Vector2d lower_, length_;
 };
 
 RC_GTEST_PROP(PropertyScene, ReadingTheResolvedSceneGivesTheSameBits, ()) {
-  const testing_support::Folder folder;
+  const Folder folder;
   const std::string text = SceneMaker(folder).make();
   const Scene scene = parse_scene(text, "made", {}, folder.path().string());
   const std::string resolved = resolved_toml(scene);
@@ -280,4 +273,4 @@ RC_GTEST_PROP(PropertyScene, ReadingTheResolvedSceneGivesTheSameBits, ()) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::test

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace carom::testing_support {
+namespace carom::test {
 
 inline bool same_bits(double x, double y) { return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y); }
 inline bool same_bits(const std::optional<double>& x, const std::optional<double>& y) {
@@ -184,4 +184,4 @@ inline std::string first_difference(const Scene& a, const Scene& b) {
   return {};
 }
 
-}  // namespace carom::testing_support
+}  // namespace carom::test

@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-namespace carom::testing_support {
+namespace carom::test {
 
 /// A box [0, 10] x [0, 8] with walls and ten disks of radius 0.25.
 inline constexpr std::string_view small_scene = R"([box]
@@ -90,4 +90,4 @@ class Folder {
   std::filesystem::path path_;
 };
 
-}  // namespace carom::testing_support
+}  // namespace carom::test

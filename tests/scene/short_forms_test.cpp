@@ -6,13 +6,8 @@
 
 #include <numbers>
 
-namespace carom {
+namespace carom::test {
 namespace {
-
-using testing_support::changed;
-using testing_support::parse_changed;
-using testing_support::refusal_of;
-using testing_support::small_scene;
 
 constexpr double pi = std::numbers::pi;
 constexpr std::string_view limits = "x = [0.0, 10.0]\ny = [0.0, 8.0]";
@@ -72,7 +67,7 @@ TEST(ShortForms, OneSpeciesSizesTheBoxAndAnotherFollows) {
 }
 
 TEST(ShortForms, FileRadiiSizeTheBox) {
-  const testing_support::Folder folder;
+  const Folder folder;
   folder.write("start.csv", "x,y,radius\n1,1,0.5\n3,3,1.0\n");
   const std::string text = changed({{limits, "aspect = 1.0"},
                                     {"count = 10\n", ""},
@@ -118,4 +113,4 @@ TEST(ShortForms, AGrownStartMayRepeatWhatIsKnown) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::test

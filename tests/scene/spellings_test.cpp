@@ -11,11 +11,8 @@
 #include <limits>
 #include <numbers>
 
-namespace carom {
+namespace carom::test {
 namespace {
-
-using testing_support::parse_changed;
-using testing_support::small_scene;
 
 TEST(Spellings, DefaultsFillWhatMayBeLeftOut) {
   const Scene scene = parse_scene(std::string(small_scene), "small.toml");
@@ -100,7 +97,7 @@ TEST(Spellings, WholeNumbersMayHaveAPointOrAnExponent) {
   EXPECT_EQ(scene.run.sample_every_collisions, 1000U);
   for (const char* wrong : {"seed = 1.5", "seed = -1e3", "seed = 1e16", "seed = inf", "seed = nan", "seed = 1e-300"}) {
     const std::string run = std::string("time = 5.0\n") + wrong;
-    EXPECT_THAT(testing_support::refusal_of([&] { parse_changed({{"time = 5.0", run}}); }), testing::HasSubstr("whole number"));
+    EXPECT_THAT(refusal_of([&] { parse_changed({{"time = 5.0", run}}); }), testing::HasSubstr("whole number"));
   }
 }
 
@@ -171,4 +168,4 @@ TEST(Spellings, WhatIsRefusedLaterIsStillPlacedInTheText) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::test

@@ -10,14 +10,11 @@
 #include <cmath>
 #include <cstdint>
 
-namespace carom {
+namespace carom::test {
 namespace {
 
 using detail::parse_start_file;
 using detail::StartFile;
-using testing_support::changed;
-using testing_support::Folder;
-using testing_support::refusal_of;
 
 TEST(StartFile, ColumnsMayStandInAnyOrder) {
   const StartFile file = parse_start_file("mass,vy,y,radius,x,vx\n6,4,2,5,1,3\n", "s.csv");
@@ -237,4 +234,4 @@ TEST(StartFile, AMillionDisksAreReadAndChecked) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::test

@@ -75,7 +75,7 @@ TEST(WithDisks, WhatIsAbsentStaysTheScenesOwn) {
 TEST(WithDisks, TheResolvedSceneReadsBackAsTheSameScene) {
   for (const Scene& scene : {one_species(), two_species()}) {
     const Scene with = with_disks(as_in_a_file(scene), three);
-    EXPECT_EQ(testing_support::first_difference(parse_scene(with.text), with), "");
+    EXPECT_EQ(first_difference(parse_scene(with.text), with), "");
   }
 }
 

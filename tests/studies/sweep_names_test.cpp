@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace carom {
+namespace carom::test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -54,4 +54,4 @@ TEST(SweepNames, UsersMayNotNameWhatLeavesTheDirectory) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::test
