@@ -30,7 +30,7 @@ std::vector<Change> one_of_each_kind() {
           {1e9, RemoveObstacle{1}}};
 }
 
-std::string text_of(const std::vector<Change>& changes) {
+std::string texts_of(const std::vector<Change>& changes) {
   std::string text;
   for (const Change& change : changes) text += changes_text(change);
   return text;
@@ -58,10 +58,10 @@ std::string refusal_of_scene(const std::string& changes) {
 }
 
 TEST(Changes, AreReadAsTheyWereWritten) {
-  const std::string text = text_of(one_of_each_kind());
+  const std::string text = texts_of(one_of_each_kind());
   const std::vector<Change> read = parse_changes(text, "list.toml");
   ASSERT_EQ(read.size(), one_of_each_kind().size());
-  EXPECT_EQ(text_of(read), text);
+  EXPECT_EQ(texts_of(read), text);
   EXPECT_EQ(read[3].time, 0.30000000000000004);
   EXPECT_EQ(std::get<AddDisk>(read[2].what).position.y(), 1e-17);
   EXPECT_EQ(std::get<SetKeys>(read[0].what).overrides[1], "collision.rule=\"reversal\"");

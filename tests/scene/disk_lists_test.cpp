@@ -2,6 +2,7 @@
 
 #include "scene/scene_equality.hpp"
 #include "scene/scene_texts.hpp"
+#include "support/temporary_directory.hpp"
 
 #include <carom/scene.hpp>
 #include <carom/simulation.hpp>
@@ -47,8 +48,8 @@ TEST(DiskLists, EqualNumbersAreOneNumberForAll) {
 }
 
 TEST(DiskLists, AStartFileOfTheSameNumbersIsTheSameStart) {
-  const Folder folder;
-  folder.write("start.csv", "x,y,vx,vy,radius,mass\n1,1,1,0.5,0.5,1\n3,1,0,-1,0.25,2\n5,4,-2,0,1,4\n");
+  const TemporaryDirectory folder;
+  write_text(folder.file("start.csv"), "x,y,vx,vy,radius,mass\n1,1,1,0.5,0.5,1\n3,1,0,-1,0.25,2\n5,4,-2,0,1,4\n");
   const auto with = [](const std::string& disks) {
     return changed({{"count = 10\nradius = 0.25\nmass = 1.0\npositions = \"random\"\nvelocities = { uniform = 1.0 }\n", disks}});
   };

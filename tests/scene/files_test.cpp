@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/scene_texts.hpp"
+#include "support/temporary_directory.hpp"
 
 #include <cstdint>
 
@@ -22,11 +23,12 @@ std::string repeated(std::string_view piece) {
 }
 
 TEST(SceneFiles, MissingDirectoryAndEmptyAreNamed) {
-  const Folder folder;
+  const TemporaryDirectory folder;
   const std::string there = folder.path().string();
   EXPECT_EQ(refusal_of([&] { load_scene(there + "/none.toml"); }), there + "/none.toml: there is no such file; check the path");
   EXPECT_EQ(refusal_of([&] { load_scene(there); }), there + ": this is a directory; give the path of a file in it");
-  const std::string empty = folder.write("empty.toml", "");
+  const std::string empty = folder.file("empty.toml");
+  write_text(empty, "");
   EXPECT_EQ(refusal_of([&] { load_scene(empty); }),
             empty + ":1:1: the scene has no [box] table; give limits x and y, and the boundary");
   EXPECT_EQ(refusal_of([&] { load_scene(""); }), "there is no such file; check the path");
@@ -34,8 +36,9 @@ TEST(SceneFiles, MissingDirectoryAndEmptyAreNamed) {
 
 TEST(SceneFiles, UnreadableFilesAreNamed) {
   if (::geteuid() == 0) GTEST_SKIP() << "root may read everything";
-  const Folder folder;
-  const std::string path = folder.write("secret.toml", "x");
+  const TemporaryDirectory folder;
+  const std::string path = folder.file("secret.toml");
+  write_text(path, "x");
   std::filesystem::permissions(path, std::filesystem::perms::none);
   EXPECT_THAT(refusal_of([&] { load_scene(path); }), HasSubstr("the file cannot be opened (Permission denied)"));
 }
@@ -47,8 +50,9 @@ TEST(SceneFiles, TenMegabytesOfGarbageAreRefused) {
     x = x * 1664525U + 1013904223U;
     bytes += static_cast<char>(x >> 24U);
   }
-  const Folder folder;
-  const std::string path = folder.write("garbage.toml", bytes);
+  const TemporaryDirectory folder;
+  const std::string path = folder.file("garbage.toml");
+  write_text(path, bytes);
   EXPECT_THAT(refusal_of([&] { load_scene(path); }), HasSubstr("this is not TOML: "));
 }
 

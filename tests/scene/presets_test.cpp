@@ -2,6 +2,7 @@
 
 #include "scene/presets.hpp"
 #include "scene/observables_known.hpp"
+#include "support/temporary_directory.hpp"
 
 #include <carom/scene.hpp>
 
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <numbers>
 #include <sstream>
 #include <stdexcept>
@@ -22,12 +22,6 @@ namespace carom::test {
 namespace {
 
 const std::filesystem::path scenes = std::filesystem::path(CAROM_SOURCE_DIR) / "docs" / "scenes";
-
-std::string text_of(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 TEST(Presets, AreTheTextsOfTheExampleScenes) {
   for (const std::string& name : preset_names()) EXPECT_EQ(preset(name), text_of(scenes / (name + ".toml"))) << name;

@@ -8,6 +8,7 @@
 #include "scene/scene_equality.hpp"
 #include "scene/scene_texts.hpp"
 #include "scene/value_text.hpp"
+#include "support/temporary_directory.hpp"
 
 #include <limits>
 
@@ -145,7 +146,7 @@ TEST(Resolved, OverridesAreInIt) {
 /// Valid scenes in text: every spelling, with numbers that need all their digits.
 class SceneMaker {
  public:
-  explicit SceneMaker(const Folder& folder) : folder_(folder) {}
+  explicit SceneMaker(const TemporaryDirectory& folder) : folder_(folder) {}
 
   std::string make() {
     lower_ = {10.0 * unit_interval() - 5.0, 10.0 * unit_interval() - 5.0};
@@ -189,7 +190,7 @@ class SceneMaker {
       text += "mass = " + one_or_list(file ? 0 : count, moderate_positive_double) + "\n";
       text += "velocities = " + velocities(count) + "\n";
     }
-    if (file) folder_.write("start" + std::to_string(s) + ".csv", csv);
+    if (file) write_text(folder_.file("start" + std::to_string(s) + ".csv"), csv);
     return text + "positions = " +
            (file     ? "{ file = \"start" + std::to_string(s) + ".csv\" }"
             : listed ? "[" + list + "]"
@@ -258,12 +259,12 @@ class SceneMaker {
     return text;
   }
 
-  const Folder& folder_;
+  const TemporaryDirectory& folder_;
   Eigen::Vector2d lower_, length_;
 };
 
 RC_GTEST_PROP(PropertyScene, ReadingTheResolvedSceneGivesTheSameBits, ()) {
-  const Folder folder;
+  const TemporaryDirectory folder;
   const std::string text = SceneMaker(folder).make();
   const Scene scene = parse_scene(text, "made", {}, folder.path().string());
   const std::string resolved = resolved_toml(scene);

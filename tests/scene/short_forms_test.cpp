@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/scene_texts.hpp"
+#include "support/temporary_directory.hpp"
 
 #include <numbers>
 
@@ -67,8 +68,8 @@ TEST(ShortForms, OneSpeciesSizesTheBoxAndAnotherFollows) {
 }
 
 TEST(ShortForms, FileRadiiSizeTheBox) {
-  const Folder folder;
-  folder.write("start.csv", "x,y,radius\n1,1,0.5\n3,3,1.0\n");
+  const TemporaryDirectory folder;
+  write_text(folder.file("start.csv"), "x,y,radius\n1,1,0.5\n3,3,1.0\n");
   const std::string text = changed({{limits, "aspect = 1.0"},
                                     {"count = 10\n", ""},
                                     {"radius = 0.25", "packing_fraction = 0.1"},

@@ -5,6 +5,7 @@
 
 #include "scene/scene_texts.hpp"
 #include "scene/start_file.hpp"
+#include "support/temporary_directory.hpp"
 
 #include <bit>
 #include <cmath>
@@ -169,14 +170,15 @@ TEST(StartFile, NumpyFilesThatPromiseTooMuchAreRefused) {
 }
 
 Scene scene_from(const std::string& csv, std::initializer_list<std::pair<std::string_view, std::string_view>> changes,
-                 const Folder& folder) {
-  folder.write("start.csv", csv);
-  folder.write("scene.toml", changed(changes, changed({{"count = 10\n", ""}, {"\"random\"", "{ file = \"start.csv\" }"}})));
-  return load_scene((folder.path() / "scene.toml").string());
+                 const TemporaryDirectory& folder) {
+  write_text(folder.file("start.csv"), csv);
+  write_text(folder.file("scene.toml"),
+             changed(changes, changed({{"count = 10\n", ""}, {"\"random\"", "{ file = \"start.csv\" }"}})));
+  return load_scene(folder.file("scene.toml"));
 }
 
 TEST(StartFile, FillsASpeciesBesideTheSceneFile) {
-  const Folder folder;
+  const TemporaryDirectory folder;
   const Scene scene = scene_from("x,y,vx,vy,radius,mass\n1,2,3,4,0.5,6\n7,5,0,0,0.75,8\n",
                                  {{"radius = 0.25\nmass = 1.0\n", ""}, {"velocities = { uniform = 1.0 }\n", ""}}, folder);
   const Species& species = scene.species[0];
@@ -188,7 +190,7 @@ TEST(StartFile, FillsASpeciesBesideTheSceneFile) {
 }
 
 TEST(StartFile, WhatTheFileLacksTheSceneMustGive) {
-  const Folder folder;
+  const TemporaryDirectory folder;
   const Scene scene = scene_from("x,y\n1,2\n", {}, folder);
   EXPECT_EQ(scene.species[0].radius_of(0), 0.25);
   EXPECT_TRUE(std::holds_alternative<UniformVelocities>(scene.species[0].velocities));
@@ -197,32 +199,32 @@ TEST(StartFile, WhatTheFileLacksTheSceneMustGive) {
 }
 
 TEST(StartFile, ThePathStillResolvesFromElsewhere) {
-  const Folder folder;
+  const TemporaryDirectory folder;
   const Scene scene = scene_from("x,y\n1,2\n", {}, folder);
   EXPECT_EQ(parse_scene(resolved_toml(scene), "elsewhere", {}, "/").species[0].count, 1);
 }
 
 TEST(StartFile, DirectoryAndMissingFileAreRefusedAtTheScene) {
-  const Folder folder;
+  const TemporaryDirectory folder;
   std::filesystem::create_directory(folder.path() / "sub");
-  folder.write("scene.toml", changed({{"count = 10\n", ""}, {"\"random\"", "{ file = \"sub\" }"}}));
-  const std::string scene = (folder.path() / "scene.toml").string();
-  const std::string start = "the start file " + (folder.path() / "sub").string();
+  write_text(folder.file("scene.toml"), changed({{"count = 10\n", ""}, {"\"random\"", "{ file = \"sub\" }"}}));
+  const std::string scene = folder.file("scene.toml");
+  const std::string start = "the start file " + folder.file("sub");
   EXPECT_EQ(refusal_of([&] { load_scene(scene); }),
             scene + ":9:22: " + start + ": this is a directory; give the path of a file in it");
   EXPECT_EQ(refusal_of([&] { load_scene(scene, {"disks.0.positions.file=none.csv"}); }),
-            "--set disks.0.positions.file=none.csv: the start file " + (folder.path() / "none.csv").string() +
+            "--set disks.0.positions.file=none.csv: the start file " + folder.file("none.csv") +
                 ": there is no such file; check the path");
 }
 
 TEST(StartFile, AMillionDisksAreReadAndChecked) {
-  const Folder folder;
+  const TemporaryDirectory folder;
   std::string csv = "x,y\n";
   for (int i = 0; i < 1'000'000; ++i) {
     csv += std::to_string(i % 1000) + ".5," + std::to_string(i / 1000) + ".5\n";
   }
   csv += "500.25,500.0\n";  // into the gap between four disks of diameter 1 there fits none of that size
-  folder.write("start.csv", csv);
+  write_text(folder.file("start.csv"), csv);
   const std::string text = changed({{"[0.0, 10.0]", "[0, 1000]"},
                                     {"[0.0, 8.0]", "[0, 1000]"},
                                     {"count = 10\n", ""},
