@@ -6,6 +6,7 @@
 #include "simulation/drag_engine.hpp"
 #include "support/effect_scenes.hpp"
 #include "support/engines.hpp"
+#include "support/refusal.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -227,22 +228,15 @@ TEST(Drag, IsRefusedWithWhatItCannotActWith) {
   const detail::EffectTraits& drag = detail::effect_named("drag");
   Scene scene = with_drag(crowd(CollisionRule::specular, 0.9), 0.1);
   scene.effects.obstacles.clear();
-  const auto refusal = [](const Scene& changed) -> std::string {
-    try {
-      check(changed);
-    } catch (const SceneError& error) {
-      return error.sentence();
-    }
-    return "accepted";
-  };
-  ASSERT_EQ(refusal(scene), "accepted");
+  const auto said = [](const Scene& changed) { return refusal<SceneError>([&] { check(changed); }); };
+  ASSERT_EQ(said(scene), "");
   const auto expect = [&](const char* other, auto&& change) {
     Scene changed = scene;
     change(changed.effects);
     const std::string title(detail::effect_named(other).title);
-    EXPECT_EQ(refusal(changed), "[drag] and " + title + " cannot be combined; remove one of the two");
+    EXPECT_EQ(said(changed), "[drag] and " + title + " cannot be combined; remove one of the two");
     changed.effects.drag->rate = 0.0;
-    EXPECT_EQ(refusal(changed), "accepted") << other;
+    EXPECT_EQ(said(changed), "") << other;
   };
   expect("roughness", [](Effects& e) { e.collision.roughness = 0.5; });
   expect("elastic_below", [](Effects& e) { e.collision.elastic_below = 1e-6; });
@@ -262,7 +256,7 @@ TEST(Drag, IsRefusedWithWhatItCannotActWith) {
   Scene equilibrated = scene;
   equilibrated.run.equilibrate = Run::Equilibrate{1.0, {}};
   EXPECT_EQ(
-      refusal(equilibrated),
+      said(equilibrated),
       "[drag] and run.equilibrate cannot be combined; equilibrate in a run without drag, and start one with drag from where "
       "it ends");
 }

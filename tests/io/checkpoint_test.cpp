@@ -5,6 +5,7 @@
 
 #include "io/output_error.hpp"
 #include "support/child_process.hpp"
+#include "support/refusal.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -67,12 +68,7 @@ std::string part_of(const Checkpoint& checkpoint, const std::string& name) {
 }
 
 std::string refusal_to_open(const fs::path& directory) {
-  try {
-    (void)Checkpoint(directory);
-  } catch (const OutputError& error) {
-    return error.what();
-  }
-  return "";
+  return refusal<OutputError>([&] { (void)Checkpoint(directory); });
 }
 
 TEST(Checkpoint, HoldsWhatWasWritten) {

@@ -5,6 +5,7 @@
 #include "io/hand_made_run.hpp"
 #include "io/run_writer.hpp"
 #include "observe/effects_report.hpp"
+#include "support/refusal.hpp"
 #include "support/temporary_directory.hpp"
 
 #include <gmock/gmock.h>
@@ -27,11 +28,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 std::string refusal_to_describe(const fs::path& path) {
-  try {
-    return "no error, but: " + describe_file(path);
-  } catch (const OutputError& error) {
-    return error.what();
-  }
+  return refusal<OutputError>([&] { return describe_file(path); });
 }
 
 class Info : public ::testing::Test {

@@ -6,6 +6,7 @@
 
 #include "io/h5md_reader.hpp"
 #include "io/hand_made_run.hpp"
+#include "support/refusal.hpp"
 #include "support/temporary_directory.hpp"
 
 #include <gmock/gmock.h>
@@ -106,12 +107,8 @@ TEST_F(ResumedTrajectory, OneThatWasCutIsRefused) {
     writer.save(saved);
   }
   fs::resize_file(path, 5000);
-  try {
-    const H5mdWriter writer(path, scene, all_disks, provenance(), saved);
-    FAIL() << "nothing was noticed";
-  } catch (const OutputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("the file has 5000 bytes and must have "));
-  }
+  EXPECT_THAT(refusal<OutputError>([&] { const H5mdWriter writer(path, scene, all_disks, provenance(), saved); }),
+              HasSubstr("the file has 5000 bytes and must have "));
 }
 
 TEST(ResumedText, KeepsItsFirstBytesAndNoMore) {

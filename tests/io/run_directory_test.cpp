@@ -3,6 +3,7 @@
 #include "io/run_directory.hpp"
 
 #include "io/hand_made_run.hpp"
+#include "support/refusal.hpp"
 #include "support/temporary_directory.hpp"
 
 #include <gmock/gmock.h>
@@ -17,15 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-std::string message_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const OutputError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 TEST(RunDirectory, IsCreatedWithItsParents) {
   const TemporaryDirectory temporary;
@@ -73,7 +65,7 @@ class RunDirectoryWithResults : public ::testing::TestWithParam<std::string> {};
 TEST_P(RunDirectoryWithResults, IsRefusedAndUntouchedWithoutForce) {
   const TemporaryDirectory temporary;
   write_text(temporary.path() / GetParam(), "old");
-  const std::string message = message_of([&] { const RunDirectory directory(temporary.path(), false); });
+  const std::string message = refusal<OutputError>([&] { const RunDirectory directory(temporary.path(), false); });
   EXPECT_THAT(message,
               AllOf(HasSubstr(temporary.path().string()), HasSubstr(GetParam()), HasSubstr("--force"), HasSubstr("--out")));
   EXPECT_EQ(text_of(temporary.path() / GetParam()), "old");
@@ -104,9 +96,9 @@ TEST(RunDirectory, OtherFilesAreNoObstacle) {
 TEST(RunDirectory, AFileInItsPlaceIsNamed) {
   const TemporaryDirectory temporary;
   write_text(temporary.path() / "file", "text");
-  EXPECT_THAT(message_of([&] { const RunDirectory directory(temporary.path() / "file", true); }),
+  EXPECT_THAT(refusal<OutputError>([&] { const RunDirectory directory(temporary.path() / "file", true); }),
               AllOf(HasSubstr((temporary.path() / "file").string()), HasSubstr("is a file"), HasSubstr("--out")));
-  EXPECT_THAT(message_of([&] { const RunDirectory directory(temporary.path() / "file" / "below", true); }),
+  EXPECT_THAT(refusal<OutputError>([&] { const RunDirectory directory(temporary.path() / "file" / "below", true); }),
               AllOf(HasSubstr("Not a directory"), HasSubstr("--out")));
   EXPECT_EQ(text_of(temporary.path() / "file"), "text");
 }
@@ -114,7 +106,7 @@ TEST(RunDirectory, AFileInItsPlaceIsNamed) {
 TEST(RunDirectory, ADirectoryInThePlaceOfAProductIsRefusedEvenWithForce) {
   const TemporaryDirectory temporary;
   fs::create_directory(temporary.path() / "summary.json");
-  EXPECT_THAT(message_of([&] { const RunDirectory directory(temporary.path(), true); }), HasSubstr("summary.json"));
+  EXPECT_THAT(refusal<OutputError>([&] { const RunDirectory directory(temporary.path(), true); }), HasSubstr("summary.json"));
   EXPECT_TRUE(fs::is_directory(temporary.path() / "summary.json"));
 }
 
@@ -129,23 +121,24 @@ TEST(RunDirectory, ALinkToAnOldResultIsRemovedAndItsTargetStays) {
 
 TEST(RunDirectory, APlaceWhereNothingCanBeWrittenIsNamedBeforeTheRun) {
   // /proc refuses new files and directories even to root
-  const std::string message = message_of([] { const RunDirectory directory("/proc/carom", false); });
+  const std::string message = refusal<OutputError>([] { const RunDirectory directory("/proc/carom", false); });
   EXPECT_THAT(message, AllOf(HasSubstr("/proc/carom"), HasSubstr("--out")));
-  EXPECT_THAT(message_of([] { const RunDirectory directory("/proc/self", false); }), HasSubstr("/proc/self"));
+  EXPECT_THAT(refusal<OutputError>([] { const RunDirectory directory("/proc/self", false); }), HasSubstr("/proc/self"));
 }
 
 TEST(RunDirectory, AReadOnlyDirectoryIsRefused) {
   if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
   const TemporaryDirectory temporary;
   fs::permissions(temporary.path(), fs::perms::owner_read | fs::perms::owner_exec);
-  EXPECT_THAT(message_of([&] { const RunDirectory directory(temporary.path(), false); }), HasSubstr("Permission denied"));
-  EXPECT_THAT(message_of([&] { const RunDirectory directory(temporary.path() / "a" / "b", false); }),
+  EXPECT_THAT(refusal<OutputError>([&] { const RunDirectory directory(temporary.path(), false); }),
+              HasSubstr("Permission denied"));
+  EXPECT_THAT(refusal<OutputError>([&] { const RunDirectory directory(temporary.path() / "a" / "b", false); }),
               HasSubstr("Permission denied"));
   fs::permissions(temporary.path(), fs::perms::owner_all);
 }
 
 TEST(RunDirectory, AnEmptyNameIsRefused) {
-  EXPECT_THAT(message_of([] { const RunDirectory directory("", false); }), HasSubstr("--out"));
+  EXPECT_THAT(refusal<OutputError>([] { const RunDirectory directory("", false); }), HasSubstr("--out"));
 }
 
 TEST(RunDirectory, PublishingGivesTheFileItsName) {
@@ -160,7 +153,7 @@ TEST(RunDirectory, PublishingGivesTheFileItsName) {
 TEST(RunDirectory, PublishingWhatIsMissingNamesIt) {
   const TemporaryDirectory temporary;
   const RunDirectory directory(temporary.path(), false);
-  EXPECT_THAT(message_of([&] { directory.publish("samples.csv"); }),
+  EXPECT_THAT(refusal<OutputError>([&] { directory.publish("samples.csv"); }),
               AllOf(HasSubstr("samples.csv.partial"), HasSubstr("No such file")));
 }
 

@@ -3,6 +3,7 @@
 
 #include "support/child_process.hpp"
 #include "support/recorded_run.hpp"
+#include "support/refusal.hpp"
 
 #include <carom/io/run_reader.hpp>
 
@@ -58,12 +59,7 @@ class RunReaderTest : public ::testing::Test {
     return run_;
   }
   [[nodiscard]] std::string refusal(const fs::path& path) const {
-    try {
-      const RunReader reader(path);
-      return "no error";
-    } catch (const OutputError& error) {
-      return error.what();
-    }
+    return test::refusal<OutputError>([&] { const RunReader reader(path); });
   }
   void cut(const std::string& name, std::size_t bytes) const {
     const std::string whole = text_of(run_ / name);
@@ -146,31 +142,22 @@ TEST_F(RunReaderTest, GivesStatesAndEventsOfTheEngineBitByBit) {
 }
 
 TEST_F(RunReaderTest, RefusesSamplesAndEventsThatAreNotThere) {
-  const auto refusal = [](auto&& call) -> std::string {
-    try {
-      (void)call();
-      return "no error";
-    } catch (const OutputError& error) {
-      return error.what();
-    }
-  };
   const RunReader reader(recorded());
-  EXPECT_THAT(refusal([&] { return reader.sample(13); }), EndsWith("there is no sample 13; the last one is 12"));
-  EXPECT_THAT(refusal([&] { return reader.totals(~std::uint64_t{0}); }), EndsWith("the last one is 12"));
-  EXPECT_THAT(refusal([&] { return reader.event_log(0, ~std::uint64_t{0}, 0.0); }), HasSubstr("there are no events 0 to"));
-  EXPECT_THAT(refusal([&] { return reader.event_log(reader.events() - 1, 2, 0.0); }), HasSubstr("the number of events is"));
+  EXPECT_THAT(test::refusal<OutputError>([&] { return reader.sample(13); }),
+              EndsWith("there is no sample 13; the last one is 12"));
+  EXPECT_THAT(test::refusal<OutputError>([&] { return reader.totals(~std::uint64_t{0}); }), EndsWith("the last one is 12"));
+  EXPECT_THAT(test::refusal<OutputError>([&] { return reader.event_log(0, ~std::uint64_t{0}, 0.0); }),
+              HasSubstr("there are no events 0 to"));
+  EXPECT_THAT(test::refusal<OutputError>([&] { return reader.event_log(reader.events() - 1, 2, 0.0); }),
+              HasSubstr("the number of events is"));
   EXPECT_EQ(reader.event_log(reader.events() - 1, 1, 0.0).size(), 1U);
 }
 
 TEST_F(RunReaderTest, SaysWhereARunKeptNoEvents) {
   const RunReader reader(recorded({"output.events=false"}));
   EXPECT_TRUE(reader.event_log().empty());
-  try {
-    (void)reader.start();
-    ADD_FAILURE() << "a start without a log";
-  } catch (const OutputError& error) {
-    EXPECT_THAT(error.what(), EndsWith("this run kept no events; run it with output.events = true"));
-  }
+  EXPECT_THAT(test::refusal<OutputError>([&] { return reader.start(); }),
+              EndsWith("this run kept no events; run it with output.events = true"));
 }
 
 TEST_F(RunReaderTest, KnowsTheSceneAndItsDisks) {

@@ -5,6 +5,7 @@
 #include "io/hand_made_run.hpp"
 #include "io/summary.hpp"
 #include "support/recorded_run.hpp"
+#include "support/refusal.hpp"
 #include "support/temporary_directory.hpp"
 
 #include <gmock/gmock.h>
@@ -148,12 +149,7 @@ class RunRecordTest : public ::testing::Test {
     return read_run_record(run_);
   }
   [[nodiscard]] std::string refusal() const {
-    try {
-      (void)read_run_record(run_);
-      return "no error";
-    } catch (const OutputError& error) {
-      return error.what();
-    }
+    return test::refusal<OutputError>([&] { return read_run_record(run_); });
   }
 
   TemporaryDirectory directory_;

@@ -3,6 +3,7 @@
 #include "io/csv_writer.hpp"
 #include "io/hand_made_run.hpp"
 #include "io/xyz_writer.hpp"
+#include "support/refusal.hpp"
 #include "support/temporary_directory.hpp"
 
 #include <gtest/gtest.h>
@@ -214,12 +215,8 @@ TEST(XyzWriter, RadiiGrowAndTheLatticeFollowsTheWalls) {
 }
 
 TEST(TextWriters, AFileThatCannotBeCreatedIsNamed) {
-  try {
-    const CsvWriter writer("/proc/samples.csv");
-    FAIL() << "no error";
-  } catch (const OutputError& error) {
-    EXPECT_NE(std::string(error.what()).find("/proc/samples.csv: cannot create it"), std::string::npos) << error.what();
-  }
+  EXPECT_THAT(refusal<OutputError>([] { const CsvWriter writer("/proc/samples.csv"); }),
+              ::testing::HasSubstr("/proc/samples.csv: cannot create it"));
 }
 
 TEST(TextWriters, MemoryDoesNotGrowWithTheNumberOfSamples) {

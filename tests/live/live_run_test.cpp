@@ -2,6 +2,7 @@
 // begins in the state of that moment; and a list of changes gives the same bits however often one stops on the way.
 
 #include "live/live_run.hpp"
+#include "support/refusal.hpp"
 
 #include <carom/simulation.hpp>
 
@@ -175,24 +176,17 @@ TEST(LiveRun, RefusesWhatCannotBeAndGoesOn) {
   LiveRun run(walled_gas());
   run.run_until(0.5);
   const State state = state_of(run);
-  const auto refusal = [&](const Change& change) {
-    try {
-      run.apply(change);
-    } catch (const SceneError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
+  const auto said = [&](const Change& change) { return refusal<SceneError>([&] { run.apply(change); }); };
   const Eigen::Vector2d middle = state.positions.col(0);
-  EXPECT_THAT(refusal({0.5, AddObstacle{SegmentObstacle{middle, middle + Eigen::Vector2d(0.1, 0.0)}}}), HasSubstr("obstacle"));
-  EXPECT_THAT(refusal({0.5, AddDisk{0, middle, {0.0, 0.0}}}), HasSubstr("overlap"));
-  EXPECT_THAT(refusal({0.5, AddDisk{4, {1.0, 1.0}, {0.0, 0.0}}}), HasSubstr("there is no species 4"));
-  EXPECT_THAT(refusal({0.5, RemoveDisk{24}}), HasSubstr("there is no disk 24; ids go from 0 to 23"));
-  EXPECT_THAT(refusal({0.5, RemoveObstacle{0}}), HasSubstr("there is no obstacle 0"));
-  EXPECT_THAT(refusal({0.5, SetKeys{{"box.x=[0, 20]"}}}), HasSubstr("box.x belongs to the start of a run"));
-  EXPECT_THAT(refusal({0.5, SetKeys{{"disks.0.count=3"}}}), HasSubstr("disks.0.count belongs to the start of a run"));
-  EXPECT_THAT(refusal({0.5, SetKeys{{"gravity.acceleration=down"}}}), HasSubstr("gravity.acceleration"));
-  EXPECT_THAT(refusal({0.25, ScaleVelocities{2.0}}), HasSubstr("comes too late"));
+  EXPECT_THAT(said({0.5, AddObstacle{SegmentObstacle{middle, middle + Eigen::Vector2d(0.1, 0.0)}}}), HasSubstr("obstacle"));
+  EXPECT_THAT(said({0.5, AddDisk{0, middle, {0.0, 0.0}}}), HasSubstr("overlap"));
+  EXPECT_THAT(said({0.5, AddDisk{4, {1.0, 1.0}, {0.0, 0.0}}}), HasSubstr("there is no species 4"));
+  EXPECT_THAT(said({0.5, RemoveDisk{24}}), HasSubstr("there is no disk 24; ids go from 0 to 23"));
+  EXPECT_THAT(said({0.5, RemoveObstacle{0}}), HasSubstr("there is no obstacle 0"));
+  EXPECT_THAT(said({0.5, SetKeys{{"box.x=[0, 20]"}}}), HasSubstr("box.x belongs to the start of a run"));
+  EXPECT_THAT(said({0.5, SetKeys{{"disks.0.count=3"}}}), HasSubstr("disks.0.count belongs to the start of a run"));
+  EXPECT_THAT(said({0.5, SetKeys{{"gravity.acceleration=down"}}}), HasSubstr("gravity.acceleration"));
+  EXPECT_THAT(said({0.25, ScaleVelocities{2.0}}), HasSubstr("comes too late"));
   EXPECT_TRUE(run.changes().empty());
 
   LiveRun twin(walled_gas());

@@ -2,6 +2,7 @@
 // threads here; tests/app/ranks_test.cpp has processes.
 
 #include "support/memory_ranks.hpp"
+#include "support/refusal.hpp"
 #include "support/several_cores.hpp"
 
 #include <carom/simulation.hpp>
@@ -272,12 +273,8 @@ TEST(Ranks, SayWhichOfThemCouldNotBegin) {
     return to == 2 && bytes.size() > 1000 ? bytes.substr(0, bytes.size() - 100) : bytes;
   };
   Simulation simulation = make_simulation(plain_gas(1000, 0.3, Boundary::walls));
-  try {
-    simulation.set_threads({}, serving.first());
-    FAIL() << "rank 2 has got less than a simulation";
-  } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), ::testing::StartsWith("process 2: "));
-  }
+  EXPECT_THAT(refusal<std::runtime_error>([&] { simulation.set_threads({}, serving.first()); }),
+              ::testing::StartsWith("process 2: "));
   serving.first().on_the_way = {};
   simulation.set_threads({}, serving.first());
   simulation.run_until(1.0);

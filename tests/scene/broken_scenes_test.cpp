@@ -1,6 +1,8 @@
 // Every scene in tests/scene/broken is refused with the sentence in its first line: "# expect: file:line:column: ...".
 // The sentences are written by hand; file names in them are relative to that directory.
 
+#include "support/refusal.hpp"
+
 #include <carom/scene.hpp>
 
 #include <gtest/gtest.h>
@@ -44,12 +46,7 @@ class BrokenScene : public testing::TestWithParam<std::string> {};
 
 TEST_P(BrokenScene, IsRefusedWithItsSentence) {
   const std::filesystem::path path = directory / (GetParam() + ".toml");
-  try {
-    load_scene(path.string());
-    FAIL() << "the scene was accepted";
-  } catch (const SceneError& error) {
-    EXPECT_EQ(without_directory(error.what()), expected_sentence(path));
-  }
+  EXPECT_EQ(without_directory(refusal<SceneError>([&] { return load_scene(path.string()); })), expected_sentence(path));
 }
 
 std::string test_name(const testing::TestParamInfo<std::string>& scene) {

@@ -3,6 +3,7 @@
 
 #include "scene/changes.hpp"
 #include "scene/effect_traits.hpp"
+#include "support/refusal.hpp"
 
 #include <carom/scene.hpp>
 
@@ -37,24 +38,16 @@ std::string texts_of(const std::vector<Change>& changes) {
 }
 
 std::string refusal_of(const std::string& text) {
-  try {
-    (void)parse_changes(text, "list.toml");
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return "";
+  return refusal<SceneError>([&] { return parse_changes(text, "list.toml"); });
 }
 
 std::string refusal_of_scene(const std::string& changes) {
-  try {
-    (void)parse_scene(
+  return refusal<SceneError>([&] {
+    return parse_scene(
         "[box]\nx = [0, 10]\ny = [0, 10]\nboundary = \"periodic\"\n[[disks]]\nradius = 0.5\nmass = 1\n"
         "positions = [[5, 5]]\nvelocities = [[1, 0]]\n[collision]\nrule = \"specular\"\n[run]\ntime = 2\n" +
         changes);
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return "";
+  });
 }
 
 TEST(Changes, AreReadAsTheyWereWritten) {
@@ -100,12 +93,7 @@ TEST(Changes, AreRefusedWithTheirPlace) {
   EXPECT_THAT(refusal_of("changes = 3\n"), HasSubstr("[[changes]] with double brackets"));
   Scene scene = Scene{.box = {.lower = {0.0, 0.0}, .upper = {5.0, 5.0}}, .run = {.time = 2.0}};
   scene.changes = {{0.8, ScaleVelocities{2.0}}, {0.5, ScaleVelocities{3.0}}};
-  try {
-    check(scene);
-    ADD_FAILURE() << "changes out of order";
-  } catch (const SceneError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("changes.1.time is 0.5, before the 0.8 of the change above"));
-  }
+  EXPECT_THAT(refusal<SceneError>([&] { check(scene); }), HasSubstr("changes.1.time is 0.5, before the 0.8 of the change above"));
 }
 
 }  // namespace

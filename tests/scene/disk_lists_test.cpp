@@ -2,6 +2,7 @@
 
 #include "scene/scene_equality.hpp"
 #include "scene/scene_texts.hpp"
+#include "support/refusal.hpp"
 #include "support/temporary_directory.hpp"
 
 #include <carom/scene.hpp>
@@ -94,7 +95,7 @@ TEST(DiskLists, AGrownStartKeepsThem) {
 }
 
 TEST(DiskLists, APackingFractionThatDisagreesIsRefused) {
-  EXPECT_THAT(refusal_of([] {
+  EXPECT_THAT(refusal<SceneError>([] {
                 (void)parse_changed({{"count = 10\nradius = 0.25", "radius = [0.25, 0.5]\npacking_fraction = 0.4"}});
               }),
               HasSubstr("disks.0.packing_fraction is 0.4, but count, radius and box make it"));

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/scene_texts.hpp"
+#include "support/refusal.hpp"
 #include "support/temporary_directory.hpp"
 
 #include <cstdint>
@@ -25,13 +26,14 @@ std::string repeated(std::string_view piece) {
 TEST(SceneFiles, MissingDirectoryAndEmptyAreNamed) {
   const TemporaryDirectory folder;
   const std::string there = folder.path().string();
-  EXPECT_EQ(refusal_of([&] { load_scene(there + "/none.toml"); }), there + "/none.toml: there is no such file; check the path");
-  EXPECT_EQ(refusal_of([&] { load_scene(there); }), there + ": this is a directory; give the path of a file in it");
+  EXPECT_EQ(refusal<SceneError>([&] { load_scene(there + "/none.toml"); }),
+            there + "/none.toml: there is no such file; check the path");
+  EXPECT_EQ(refusal<SceneError>([&] { load_scene(there); }), there + ": this is a directory; give the path of a file in it");
   const std::string empty = folder.file("empty.toml");
   write_text(empty, "");
-  EXPECT_EQ(refusal_of([&] { load_scene(empty); }),
+  EXPECT_EQ(refusal<SceneError>([&] { load_scene(empty); }),
             empty + ":1:1: the scene has no [box] table; give limits x and y, and the boundary");
-  EXPECT_EQ(refusal_of([&] { load_scene(""); }), "there is no such file; check the path");
+  EXPECT_EQ(refusal<SceneError>([&] { load_scene(""); }), "there is no such file; check the path");
 }
 
 TEST(SceneFiles, UnreadableFilesAreNamed) {
@@ -40,7 +42,7 @@ TEST(SceneFiles, UnreadableFilesAreNamed) {
   const std::string path = folder.file("secret.toml");
   write_text(path, "x");
   std::filesystem::permissions(path, std::filesystem::perms::none);
-  EXPECT_THAT(refusal_of([&] { load_scene(path); }), HasSubstr("the file cannot be opened (Permission denied)"));
+  EXPECT_THAT(refusal<SceneError>([&] { load_scene(path); }), HasSubstr("the file cannot be opened (Permission denied)"));
 }
 
 TEST(SceneFiles, TenMegabytesOfGarbageAreRefused) {
@@ -53,22 +55,23 @@ TEST(SceneFiles, TenMegabytesOfGarbageAreRefused) {
   const TemporaryDirectory folder;
   const std::string path = folder.file("garbage.toml");
   write_text(path, bytes);
-  EXPECT_THAT(refusal_of([&] { load_scene(path); }), HasSubstr("this is not TOML: "));
+  EXPECT_THAT(refusal<SceneError>([&] { load_scene(path); }), HasSubstr("this is not TOML: "));
 }
 
 TEST(SceneFiles, MegabytesOfAnyOnePatternAreRefused) {
   // Among them the ones that nest: their parse trees must not exhaust the stack.
   for (const char* piece :
        {"a", "[", "{", "[[a]]\n", "a = [[", "x={a=", "a.b.", "\"a\".'b' . c.", "[a.b.c.d.", "\"", "'''", "=", "\n", "\xff"}) {
-    EXPECT_THAT(refusal_of([&] { parse_scene(repeated(piece), "s.toml"); }), HasSubstr("s.toml:")) << piece;
+    EXPECT_THAT(refusal<SceneError>([&] { parse_scene(repeated(piece), "s.toml"); }), HasSubstr("s.toml:")) << piece;
   }
-  EXPECT_THAT(refusal_of([&] { parse_scene(std::string(ten_megabytes, '\0'), "s.toml"); }),
+  EXPECT_THAT(refusal<SceneError>([&] { parse_scene(std::string(ten_megabytes, '\0'), "s.toml"); }),
               HasSubstr("s.toml:1:1: this is not TOML"));
 }
 
 TEST(SceneFiles, DeepKeysAreRefusedWhereTheyStand) {
   const std::string deep = repeated("a.") + "a = 1\n";
-  EXPECT_EQ(refusal_of([&] { parse_scene("title = \"\"\"two\nlines....\"\"\"\n# ......................\n" + deep, "s.toml"); }),
+  EXPECT_EQ(refusal<SceneError>(
+                [&] { parse_scene("title = \"\"\"two\nlines....\"\"\"\n# ......................\n" + deep, "s.toml"); }),
             "s.toml:4:1: a key here has more than 16 dotted parts; a scene's longest key has 3");
 }
 
@@ -79,7 +82,7 @@ TEST(SceneFiles, DotsInStringsAndCommentsAreNotKeys) {
 }
 
 TEST(SceneFiles, DevicesAreRefused) {
-  EXPECT_EQ(refusal_of([] { load_scene("/dev/zero"); }), "/dev/zero: this is a device; give the path of a file");
+  EXPECT_EQ(refusal<SceneError>([] { load_scene("/dev/zero"); }), "/dev/zero: this is a device; give the path of a file");
 }
 
 }  // namespace

@@ -3,13 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "scene/scene_texts.hpp"
+#include "support/refusal.hpp"
 
 namespace carom::test {
 namespace {
 
 Scene overridden(const std::vector<std::string>& overrides) { return parse_scene(std::string(small_scene), "s.toml", overrides); }
-std::string refusal(const std::string& override_text) {
-  return refusal_of([&] { overridden({override_text}); });
+std::string said_of(const std::string& override_text) {
+  return refusal<SceneError>([&] { overridden({override_text}); });
 }
 
 TEST(Overrides, ReplaceAValue) {
@@ -54,24 +55,24 @@ TEST(Overrides, TheLastOneWins) {
 }
 
 TEST(Overrides, ValuesAreRefusedByTheNameOfTheOverride) {
-  EXPECT_EQ(refusal("run.time=-2"),
+  EXPECT_EQ(said_of("run.time=-2"),
             "--set run.time=-2: run.time is an integer (-2); it must be a finite number, zero or more, such as time = 5.0");
-  EXPECT_EQ(refusal("run.time=inf"),
+  EXPECT_EQ(said_of("run.time=inf"),
             "--set run.time=inf: run.time is a floating-point number (inf); it must be a finite number, zero or more, such as "
             "time = 5.0");
   EXPECT_TRUE(
-      refusal("collision.rule=elastic").starts_with("--set collision.rule=elastic: collision.rule is a string (\"elastic\");"));
-  EXPECT_EQ(refusal("disks.0.velocities={ sped = 1 }"),
+      said_of("collision.rule=elastic").starts_with("--set collision.rule=elastic: collision.rule is a string (\"elastic\");"));
+  EXPECT_EQ(said_of("disks.0.velocities={ sped = 1 }"),
             "--set disks.0.velocities={ sped = 1 }: disks.0.velocities has no key \"sped\"; did you mean \"speed\"?");
 }
 
 TEST(Overrides, UnknownKeysNameTheNearest) {
-  EXPECT_EQ(refusal("run.tiem=2"), "--set run.tiem=2: [run] has no key \"tiem\"; did you mean \"time\"?");
-  EXPECT_EQ(refusal("ouput.csv=true"), "--set ouput.csv=true: the scene has no key \"ouput\"; did you mean \"output\"?");
+  EXPECT_EQ(said_of("run.tiem=2"), "--set run.tiem=2: [run] has no key \"tiem\"; did you mean \"time\"?");
+  EXPECT_EQ(said_of("ouput.csv=true"), "--set ouput.csv=true: the scene has no key \"ouput\"; did you mean \"output\"?");
 }
 
 TEST(Overrides, ObservablesThatDoNotExistNameTheNearest) {
-  EXPECT_EQ(refusal("observe.pressur=true"),
+  EXPECT_EQ(said_of("observe.pressur=true"),
             "--set observe.pressur=true: [observe] has no key \"pressur\"; did you mean \"pressure\"?");
 }
 
@@ -81,40 +82,40 @@ TEST(Overrides, EffectsMayBeAddedAndAreCheckedHereToo) {
   EXPECT_EQ(scene.effects.gravity->acceleration.y(), -1.0);
   EXPECT_EQ(scene.effects.obstacles.size(), 1U);
   EXPECT_EQ(
-      refusal("shear.rate=0.1"),
+      said_of("shear.rate=0.1"),
       "--set shear.rate=0.1: [shear] moves periodic images past each other, but x has walls; take boundary = \"periodic\", or "
       "remove [shear]");
 }
 
 TEST(Overrides, MalformedOnesSayHowTheyShouldLook) {
   const std::string shape = "an override looks like run.time=2 or disks.0.radius=0.05";
-  EXPECT_EQ(refusal("run.time"), "--set run.time: there is no \"=\" in it; " + shape);
-  EXPECT_EQ(refusal(""), "--set : there is no \"=\" in it; " + shape);
-  EXPECT_EQ(refusal("run.time="), "--set run.time=: there is no value behind \"=\"; " + shape);
-  EXPECT_EQ(refusal("=2"), "--set =2: \"\" is not a dotted key; " + shape);
-  EXPECT_EQ(refusal("run..time=2"), "--set run..time=2: \"run..time\" is not a dotted key; " + shape);
-  EXPECT_EQ(refusal("run.time=5s"), "--set run.time=5s: the value is not TOML; " + shape);
-  EXPECT_EQ(refusal("box.x=[0, 1"), "--set box.x=[0, 1: the value is not TOML; " + shape);
+  EXPECT_EQ(said_of("run.time"), "--set run.time: there is no \"=\" in it; " + shape);
+  EXPECT_EQ(said_of(""), "--set : there is no \"=\" in it; " + shape);
+  EXPECT_EQ(said_of("run.time="), "--set run.time=: there is no value behind \"=\"; " + shape);
+  EXPECT_EQ(said_of("=2"), "--set =2: \"\" is not a dotted key; " + shape);
+  EXPECT_EQ(said_of("run..time=2"), "--set run..time=2: \"run..time\" is not a dotted key; " + shape);
+  EXPECT_EQ(said_of("run.time=5s"), "--set run.time=5s: the value is not TOML; " + shape);
+  EXPECT_EQ(said_of("box.x=[0, 1"), "--set box.x=[0, 1: the value is not TOML; " + shape);
 }
 
 TEST(Overrides, OneOverrideCannotSmuggleInAnother) {
-  EXPECT_EQ(refusal("run.time=2\nrun.seed=5").substr(0, 6), "--set ");
-  EXPECT_EQ(refusal("title=word\nx").substr(0, 6), "--set ");
+  EXPECT_EQ(said_of("run.time=2\nrun.seed=5").substr(0, 6), "--set ");
+  EXPECT_EQ(said_of("title=word\nx").substr(0, 6), "--set ");
 }
 
 TEST(Overrides, BarredWaysAreNamed) {
   EXPECT_EQ(
-      refusal("box.boundary.x=periodic"),
+      said_of("box.boundary.x=periodic"),
       "--set box.boundary.x=periodic: box.boundary is a string (\"walls\") and has no part \"x\"; set box.boundary as a whole");
-  EXPECT_EQ(refusal("disks.radius=2"),
+  EXPECT_EQ(said_of("disks.radius=2"),
             "--set disks.radius=2: disks is a list, so a number from 0 must follow it, such as disks.0; found \"radius\"");
-  EXPECT_EQ(refusal("disks.1.radius=2"), "--set disks.1.radius=2: disks has 1 entry, numbered from 0, so there is no disks.1");
-  EXPECT_EQ(refusal("disks.7={}"), "--set disks.7={}: disks has 1 entry, numbered from 0, so there is no disks.7");
+  EXPECT_EQ(said_of("disks.1.radius=2"), "--set disks.1.radius=2: disks has 1 entry, numbered from 0, so there is no disks.1");
+  EXPECT_EQ(said_of("disks.7={}"), "--set disks.7={}: disks has 1 entry, numbered from 0, so there is no disks.7");
 }
 
 TEST(Overrides, WhatTheFileGetsWrongStillNamesTheFile) {
   const std::string text = changed({{"mass = 1.0", "mass = -1.0"}});
-  EXPECT_EQ(refusal_of([&] { parse_scene(text, "s.toml", {"run.time=2"}); }).substr(0, 11), "s.toml:9:8:");
+  EXPECT_EQ(refusal<SceneError>([&] { parse_scene(text, "s.toml", {"run.time=2"}); }).substr(0, 11), "s.toml:9:8:");
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "scene/presets.hpp"
 #include "scene/observables_known.hpp"
+#include "support/refusal.hpp"
 #include "support/temporary_directory.hpp"
 
 #include <carom/scene.hpp>
@@ -41,13 +42,7 @@ TEST(Presets, TheClassicSceneComesFirst) {
 }
 
 TEST(Presets, UnknownNamesAreAnswered) {
-  const auto answer = [](const std::string& name) {
-    try {
-      return preset(name);
-    } catch (const std::invalid_argument& error) {
-      return std::string(error.what());
-    }
-  };
+  const auto answer = [](const std::string& name) { return refusal<std::invalid_argument>([&] { return preset(name); }); };
   EXPECT_EQ(answer("gass"), "there is no preset \"gass\"; did you mean \"gas\"?");
   EXPECT_THAT(answer("plasma physics"), testing::StartsWith("there is no preset \"plasma physics\"; the presets are box, "));
 }

@@ -2,6 +2,7 @@
 // species are drawn as without it.
 
 #include "scene/scene_texts.hpp"
+#include "support/refusal.hpp"
 
 #include <carom/simulation.hpp>
 
@@ -78,7 +79,7 @@ TEST(Regions, OtherSpeciesAreDrawnAsWithout) {
 }
 
 TEST(Regions, ThatAreFullAreToldSo) {
-  EXPECT_NE(refusal_of([] {
+  EXPECT_NE(refusal<SceneError>([] {
               (void)positions_of("{ random = { x = [0, 2], y = [0, 2] } }", 16);
             }).find("disks.0.positions.random after"),
             std::string::npos);

@@ -2,6 +2,8 @@
 // Where the limits are is worked out here by hand, from what follows from each number: speeds times lengths between 1e-150 and
 // 1e150, at most 2^53 passes, kicks and samples, places to a thousandth of the smallest radius.
 
+#include "support/refusal.hpp"
+
 #include <carom/scene.hpp>
 
 #include <fmt/format.h>
@@ -25,12 +27,7 @@ std::string refusal_of(const std::string& boundary, const std::string& run, cons
       "\"\n[[disks]]\ncount = 5\nradius = 0.03125\nmass = 1.0\npositions = \"random\"\nvelocities = { speed = 1.0 }\n"
       "[collision]\nrule = \"specular\"\n[run]\n" +
       run + "\n";
-  try {
-    (void)parse_scene(text, "scene", overrides);
-  } catch (const SceneError& error) {
-    return error.sentence();
-  }
-  return "";
+  return refusal<SceneError>([&] { return parse_scene(text, "scene", overrides); });
 }
 
 const std::string by_collisions = "collisions = 1000", for_a_while = "time = 4.0";

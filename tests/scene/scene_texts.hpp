@@ -3,8 +3,6 @@
 
 #include <carom/scene.hpp>
 
-#include <gtest/gtest.h>
-
 #include <initializer_list>
 #include <stdexcept>
 #include <string>
@@ -47,18 +45,6 @@ inline std::string changed(std::initializer_list<std::pair<std::string_view, std
 
 inline Scene parse_changed(std::initializer_list<std::pair<std::string_view, std::string_view>> changes) {
   return parse_scene(changed(changes));
-}
-
-/// what() of the SceneError that `action` throws; an empty string and a failed test where it throws none.
-template <class Action>
-std::string refusal_of(const Action& action) {
-  try {
-    action();
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing was refused";
-  return {};
 }
 
 }  // namespace carom::test

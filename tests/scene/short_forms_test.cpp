@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/scene_texts.hpp"
+#include "support/refusal.hpp"
 #include "support/temporary_directory.hpp"
 
 #include <numbers>
@@ -45,7 +46,7 @@ TEST(ShortForms, ConsistentRedundancyIsAllowed) {
 
 TEST(ShortForms, InconsistentRedundancyNamesWhatTheOthersMake) {
   const std::string text = changed({{"mass", "packing_fraction = 0.0246\nmass"}});
-  EXPECT_EQ(refusal_of([&] { parse_scene(text, "s.toml"); }),
+  EXPECT_EQ(refusal<SceneError>([&] { parse_scene(text, "s.toml"); }),
             "s.toml:9:20: disks.0.packing_fraction is 0.0246, but count, radius and box make it 0.02454369261; leave out one of "
             "the four");
 }

@@ -5,6 +5,7 @@
 
 #include "scene/refusal.hpp"
 #include "scene/scene_texts.hpp"
+#include "support/refusal.hpp"
 
 #include <cfloat>
 #include <cmath>
@@ -97,7 +98,7 @@ TEST(Spellings, WholeNumbersMayHaveAPointOrAnExponent) {
   EXPECT_EQ(scene.run.sample_every_collisions, 1000U);
   for (const char* wrong : {"seed = 1.5", "seed = -1e3", "seed = 1e16", "seed = inf", "seed = nan", "seed = 1e-300"}) {
     const std::string run = std::string("time = 5.0\n") + wrong;
-    EXPECT_THAT(refusal_of([&] { parse_changed({{"time = 5.0", run}}); }), testing::HasSubstr("whole number"));
+    EXPECT_THAT(refusal<SceneError>([&] { parse_changed({{"time = 5.0", run}}); }), testing::HasSubstr("whole number"));
   }
 }
 

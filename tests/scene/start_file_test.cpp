@@ -5,6 +5,7 @@
 
 #include "scene/scene_texts.hpp"
 #include "scene/start_file.hpp"
+#include "support/refusal.hpp"
 #include "support/temporary_directory.hpp"
 
 #include <bit>
@@ -46,7 +47,8 @@ TEST(StartFile, NumbersAreReadToTheLastBit) {
 
 TEST(StartFile, NumbersWithATailAreRefused) {
   for (const char* wrong : {"1.0m", "0x10", "1e999", "++1", "+-1", "1 2", "inf", "-nan", "1.0.0", "--", "1,5"}) {
-    EXPECT_EQ(refusal_of([&] { parse_start_file(std::string("x,y\n1,") + wrong + "\n", "s.csv"); }).substr(0, 8), "s.csv:2:")
+    EXPECT_EQ(refusal<SceneError>([&] { parse_start_file(std::string("x,y\n1,") + wrong + "\n", "s.csv"); }).substr(0, 8),
+              "s.csv:2:")
         << wrong;
   }
 }
@@ -59,7 +61,7 @@ TEST(StartFile, ACommentJustAboveTheNumbersMayNameTheColumns) {
     EXPECT_THAT(file.positions, testing::ElementsAre(Eigen::Vector2d(1, 2), Eigen::Vector2d(5, 6))) << header;
     EXPECT_THAT(file.velocities, testing::ElementsAre(Eigen::Vector2d(3, 4), Eigen::Vector2d(7, 8))) << header;
   }
-  const auto fails = [](const std::string& text) { return refusal_of([&] { parse_start_file(text, "s.csv"); }); };
+  const auto fails = [](const std::string& text) { return refusal<SceneError>([&] { parse_start_file(text, "s.csv"); }); };
   EXPECT_EQ(fails("# y,x\n# from the lab\n1,2\n"),
             "s.csv:3:1: the first row must name the columns, such as x,y,vx,vy; found numbers");
   EXPECT_EQ(fails("# by hand\n#  x,vx\n1,2\n"), "s.csv:2:4: there is no column y; the columns x and y are required");
@@ -145,12 +147,12 @@ TEST(StartFile, EveryNumpyFileCutShortIsRefused) {
   const std::string whole = npy(npy_header("[('x', '<f8'), ('y', '<f8'), ('mass', '<f8')]", "(1,)"), bytes_of({1.0, 2.0, 3.0}));
   EXPECT_THAT(parse_start_file(whole, "s.npy").masses, testing::ElementsAre(3.0));
   for (std::size_t length = 6; length < whole.size(); ++length)
-    EXPECT_EQ(refusal_of([&] { parse_start_file(whole.substr(0, length), "s.npy"); }).substr(0, 7), "s.npy: ") << length;
+    EXPECT_EQ(refusal<SceneError>([&] { parse_start_file(whole.substr(0, length), "s.npy"); }).substr(0, 7), "s.npy: ") << length;
 }
 
 TEST(StartFile, NumpyFilesThatPromiseTooMuchAreRefused) {
   const auto fails = [](const std::string& header) {
-    return refusal_of([&] { parse_start_file(npy(header, "12345678"), "s.npy"); });
+    return refusal<SceneError>([&] { parse_start_file(npy(header, "12345678"), "s.npy"); });
   };
   const std::string x_and_y = "[('x', '<f8'), ('y', '<f8')]";
   EXPECT_THAT(fails(npy_header("'<f8'", "(18446744073709551615, 4)")), testing::HasSubstr("the file ends early"));
@@ -194,7 +196,7 @@ TEST(StartFile, WhatTheFileLacksTheSceneMustGive) {
   const Scene scene = scene_from("x,y\n1,2\n", {}, folder);
   EXPECT_EQ(scene.species[0].radius_of(0), 0.25);
   EXPECT_TRUE(std::holds_alternative<UniformVelocities>(scene.species[0].velocities));
-  const std::string sentence = refusal_of([&] { scene_from("x,y\n1,2\n", {{"mass = 1.0\n", ""}}, folder); });
+  const std::string sentence = refusal<SceneError>([&] { scene_from("x,y\n1,2\n", {{"mass = 1.0\n", ""}}, folder); });
   EXPECT_THAT(sentence, testing::HasSubstr("[[disks]] lacks mass"));
 }
 
@@ -210,9 +212,9 @@ TEST(StartFile, DirectoryAndMissingFileAreRefusedAtTheScene) {
   write_text(folder.file("scene.toml"), changed({{"count = 10\n", ""}, {"\"random\"", "{ file = \"sub\" }"}}));
   const std::string scene = folder.file("scene.toml");
   const std::string start = "the start file " + folder.file("sub");
-  EXPECT_EQ(refusal_of([&] { load_scene(scene); }),
+  EXPECT_EQ(refusal<SceneError>([&] { load_scene(scene); }),
             scene + ":9:22: " + start + ": this is a directory; give the path of a file in it");
-  EXPECT_EQ(refusal_of([&] { load_scene(scene, {"disks.0.positions.file=none.csv"}); }),
+  EXPECT_EQ(refusal<SceneError>([&] { load_scene(scene, {"disks.0.positions.file=none.csv"}); }),
             "--set disks.0.positions.file=none.csv: the start file " + folder.file("none.csv") +
                 ": there is no such file; check the path");
 }
@@ -230,7 +232,7 @@ TEST(StartFile, AMillionDisksAreReadAndChecked) {
                                     {"count = 10\n", ""},
                                     {"0.25", "0.5"},
                                     {"\"random\"", "{ file = \"start.csv\" }"}});
-  const std::string sentence = refusal_of([&] { parse_scene(text, "s.toml", {}, folder.path().string()); });
+  const std::string sentence = refusal<SceneError>([&] { parse_scene(text, "s.toml", {}, folder.path().string()); });
   EXPECT_THAT(sentence, testing::HasSubstr("start.csv:1000002:1: disks "));
   EXPECT_THAT(sentence, testing::HasSubstr(" and 1000000 overlap by "));
 }

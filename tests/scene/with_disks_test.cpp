@@ -1,6 +1,7 @@
 // Arrays of a program as the disks of a scene.
 
 #include "scene/scene_equality.hpp"
+#include "support/refusal.hpp"
 #include "support/scenes.hpp"
 #include "support/systems.hpp"
 
@@ -40,13 +41,8 @@ Scene as_in_a_file(Scene scene) {
   return scene;
 }
 
-std::string refusal(const Scene& scene, const DiskArrays& disks) {
-  try {
-    (void)with_disks(scene, disks);
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return "accepted";
+std::string said_of(const Scene& scene, const DiskArrays& disks) {
+  return refusal<SceneError>([&] { return with_disks(scene, disks); });
 }
 
 TEST(WithDisks, ASimulationBeginsWithWhatTheArraysHold) {
@@ -82,16 +78,16 @@ TEST(WithDisks, TheResolvedSceneReadsBackAsTheSameScene) {
 TEST(WithDisks, RefusesArraysThatDoNotFitTogether) {
   DiskArrays disks = three;
   disks.velocities.pop_back();
-  EXPECT_EQ(refusal(one_species(), disks), "there are 2 velocities and 3 positions; give one of each per disk");
+  EXPECT_EQ(said_of(one_species(), disks), "there are 2 velocities and 3 positions; give one of each per disk");
   disks = {.positions = {{1.0, 1.0}, {4.0, 1.0}}};
-  EXPECT_THAT(refusal(two_species(), disks), HasSubstr("there are 2 positions, and the 2 species of the scene have 3 disks"));
+  EXPECT_THAT(said_of(two_species(), disks), HasSubstr("there are 2 positions, and the 2 species of the scene have 3 disks"));
 }
 
 TEST(WithDisks, RefusesWhatASceneFileIsRefusedFor) {
-  EXPECT_THAT(refusal(one_species(), {.positions = {{1.0, 1.0}, {1.1, 1.0}}}), HasSubstr("overlap"));
-  EXPECT_THAT(refusal(one_species(), {.positions = {{1.0, 11.0}}}), HasSubstr("box"));
-  EXPECT_THAT(refusal(one_species(), {.positions = {{1.0, std::nan("")}}}), HasSubstr("nan"));
-  EXPECT_THAT(refusal(one_species(), {.positions = {{1.0, 1.0}}, .radii = {-1.0}}), HasSubstr("radi"));
+  EXPECT_THAT(said_of(one_species(), {.positions = {{1.0, 1.0}, {1.1, 1.0}}}), HasSubstr("overlap"));
+  EXPECT_THAT(said_of(one_species(), {.positions = {{1.0, 11.0}}}), HasSubstr("box"));
+  EXPECT_THAT(said_of(one_species(), {.positions = {{1.0, std::nan("")}}}), HasSubstr("nan"));
+  EXPECT_THAT(said_of(one_species(), {.positions = {{1.0, 1.0}}, .radii = {-1.0}}), HasSubstr("radi"));
 }
 
 }  // namespace

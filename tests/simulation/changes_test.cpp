@@ -3,6 +3,7 @@
 
 #include "scene/effect_traits.hpp"
 #include "support/effect_scenes.hpp"
+#include "support/refusal.hpp"
 #include "support/scenes.hpp"
 #include "support/systems.hpp"
 
@@ -411,7 +412,7 @@ TEST(Changes, AreRefusedInTheWordsOfTheCheckAndLeaveAllAsItWas) {
   const auto refused = [&](const std::function<void(Effects&)>& change) {
     Effects effects = good;
     change(effects);
-    return refusal([&] { simulation.set_effects(effects); });
+    return refusal<SceneError>([&] { simulation.set_effects(effects); });
   };
   EXPECT_THAT(refused([](Effects& e) { e.gravity = Gravity{{0.0, -1.0}}; }), HasSubstr("where the box is periodic"));
   EXPECT_THAT(refused([](Effects& e) { e.collision.restitution = 1.5; }), HasSubstr("collision.restitution"));

@@ -2,6 +2,7 @@
 // checked.
 
 #include "support/effect_scenes.hpp"
+#include "support/refusal.hpp"
 #include "support/scenes.hpp"
 #include "support/systems.hpp"
 
@@ -123,13 +124,9 @@ TEST(OwnRule, IsHeldToNumbersThatAreFiniteAndDisksThatPart) {
     const auto said = [&](CollisionFunction rule) {
       simulation.set_collision_rule(std::move(rule));
       const State before = simulation.state();
-      try {
-        simulation.run_until(10.0);
-      } catch (const std::domain_error& error) {
-        EXPECT_TRUE(simulation.state().velocities == before.velocities) << "it stands before the collision";
-        return std::string(error.what());
-      }
-      return std::string();
+      const std::string sentence = refusal<std::domain_error>([&] { simulation.run_until(10.0); });
+      EXPECT_TRUE(simulation.state().velocities == before.velocities) << "it stands before the collision";
+      return sentence;
     };
     EXPECT_THAT(said([](CollidingPair& contact) { contact.velocity[0] = std::numeric_limits<double>::quiet_NaN(); }),
                 HasSubstr("the collision rule gives velocities that are not finite to disks"));
@@ -165,7 +162,8 @@ TEST(OwnRule, IsNotKnownToObservablesThatFollowCollisions) {
   scene.observe = {{.name = "free_flight"}};
   Simulation simulation = make_simulation(scene);
   simulation.set_collision_rule(smooth(1.0));
-  EXPECT_THAT(refusal([&] { const Observation observation(simulation); }), HasSubstr("knows the collision rules of scenes only"));
+  EXPECT_THAT(refusal<SceneError>([&] { const Observation observation(simulation); }),
+              HasSubstr("knows the collision rules of scenes only"));
 }
 
 }  // namespace

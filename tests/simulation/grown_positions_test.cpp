@@ -3,6 +3,7 @@
 #include "neighbours/disks_at_rest.hpp"
 #include "scene/fixed_shapes.hpp"
 #include "simulation/start.hpp"
+#include "support/refusal.hpp"
 #include "support/scenes.hpp"
 
 #include <gmock/gmock.h>
@@ -93,7 +94,7 @@ TEST(DenseStart, OwesNothingToMassesVelocitiesAndEffects) {
 
 TEST(DenseStart, ThatJamsSaysHowFarItCame) {
   const Scene scene = dense(60, 0.89, Boundary::walls, Boundary::walls, 1.4);
-  const std::string sentence = refusal([&] { (void)draw_start(scene); });
+  const std::string sentence = refusal<SceneError>([&] { (void)draw_start(scene); });
   EXPECT_THAT(sentence, HasSubstr("the disks jam at a packing fraction of 0."));
   EXPECT_THAT(sentence, HasSubstr("on their way to 0.89; ask for less, or for positions = \"hexagonal\""));
 }
@@ -103,16 +104,17 @@ TEST(DenseStart, ThatWedgesADiskBetweenAWallAndAnObstacleIsRefused) {
   Scene scene = dense(2, std::numbers::pi / 2.0 / (1.5 * 3.4), Boundary::walls, Boundary::periodic);
   scene.box = Box{{-0.75, -1.7}, {0.75, 1.7}, {Boundary::walls, Boundary::periodic}};
   scene.effects.obstacles = {SegmentObstacle{{0.0, -1.5}, {0.0, 0.25}}};
-  EXPECT_THAT(refusal([&] { (void)draw_start(scene); }), HasSubstr("the disks jam at a packing fraction of 0."));
+  EXPECT_THAT(refusal<SceneError>([&] { (void)draw_start(scene); }), HasSubstr("the disks jam at a packing fraction of 0."));
 }
 
 TEST(DenseStart, IsForAllDisksOrNone) {
   Scene scene = dense(20, 0.5, Boundary::periodic, Boundary::periodic, 1.4);
   scene.species[1].positions = RandomPositions{};
-  EXPECT_THAT(refusal([&] { (void)draw_start(scene); }), HasSubstr("disks.1.positions are not grown, but those of disks.0 are"));
+  EXPECT_THAT(refusal<SceneError>([&] { (void)draw_start(scene); }),
+              HasSubstr("disks.1.positions are not grown, but those of disks.0 are"));
   scene.species[1].count = 0;
   scene.species[0].positions = GrownPositions{scene.packing_fraction()};
-  EXPECT_EQ(refusal([&] { (void)draw_start(scene); }), "");
+  EXPECT_EQ(refusal<SceneError>([&] { (void)draw_start(scene); }), "");
 }
 
 TEST(DenseStart, IsRefusedToADiskWiderThanTheBox) {
@@ -120,7 +122,7 @@ TEST(DenseStart, IsRefusedToADiskWiderThanTheBox) {
   scene.box.upper[1] = 0.9;
   scene.species.front().count = 1;
   scene.species.front().positions = GrownPositions{scene.packing_fraction()};
-  EXPECT_THAT(refusal([&] { (void)draw_start(scene); }),
+  EXPECT_THAT(refusal<SceneError>([&] { (void)draw_start(scene); }),
               HasSubstr("its diameter 1 must be less than 0.9, the length of the box in y"));
 }
 

@@ -2,6 +2,7 @@
 
 #include "neighbours/disks_at_rest.hpp"
 #include "observe/mechanics.hpp"
+#include "support/refusal.hpp"
 #include "support/scenes.hpp"
 #include "support/systems.hpp"
 #include "theory/equation_of_state.hpp"
@@ -183,7 +184,7 @@ TEST(Growth, IsNotEquilibrated) {
   Scene scene = growing(gas_scene(16, 0.3, Boundary::periodic), 0.05, 0.5);
   scene.run.collisions = 10;
   scene.run.equilibrate = Run::Equilibrate{{}, 1.0};
-  EXPECT_NE(refusal([&] { (void)make_simulation(scene); }), "");
+  EXPECT_NE(refusal<SceneError>([&] { (void)make_simulation(scene); }), "");
 }
 
 TEST(InelasticRun, ThatComesToAStandIsCollapsed) {

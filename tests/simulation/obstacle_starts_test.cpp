@@ -2,6 +2,7 @@
 
 #include "scene/fixed_shapes.hpp"
 #include "simulation/start.hpp"
+#include "support/refusal.hpp"
 #include "support/scenes.hpp"
 
 #include <gmock/gmock.h>
@@ -95,8 +96,8 @@ TEST(ObstacleStarts, ObstaclesFarAwayChangeNoBits) {
 TEST(ObstacleStarts, ALatticeUponAnObstacleIsRefused) {
   const Box box = box_of(10.0, 10.0, Boundary::periodic);
   const Species lattice = species_of(9, 0.5, 1.0, SquareLattice{}, AtRest{});  // sites 1.67, 5, 8.33
-  EXPECT_EQ(refusal([&] { (void)draw_start(among(box, {disk(3.3, 3.3, 0.5)}, lattice)); }), "");
-  EXPECT_THAT(refusal([&] {
+  EXPECT_EQ(refusal<SceneError>([&] { (void)draw_start(among(box, {disk(3.3, 3.3, 0.5)}, lattice)); }), "");
+  EXPECT_THAT(refusal<SceneError>([&] {
                 (void)draw_start(among(box, {disk(3.3, 3.3, 0.5), segment(5.0, 0.0, 5.0, 4.0)}, lattice));
               }),
               HasSubstr("the square lattice puts disk 1 upon obstacles.1; give all positions one by one, or ask for \"random\""));
@@ -105,7 +106,7 @@ TEST(ObstacleStarts, ALatticeUponAnObstacleIsRefused) {
 TEST(ObstacleStarts, AListedDiskUponAnObstacleIsRefused) {
   const Box box = box_of(10.0, 10.0, Boundary::walls);
   const auto at = [&](double x) {
-    return refusal([&] {
+    return refusal<SceneError>([&] {
       (void)draw_start(among(box, {disk(5.0, 5.0, 0.5)}, species_of(1, 0.5, 1.0, ListedPositions{{{x, 5.0}}}, AtRest{})));
     });
   };

@@ -1,6 +1,7 @@
 // Where disks start: no overlaps, inside the box, repeatable, and refused with a sentence where there is no way.
 
 #include "simulation/start.hpp"
+#include "support/refusal.hpp"
 #include "support/scenes.hpp"
 
 #include <gmock/gmock.h>
@@ -130,36 +131,42 @@ TEST(Positions, TouchingWithinOnePartInABillionIsAcceptedAndNotMore) {
   const auto pair = [&](double distance) {
     return [&, distance] { (void)draw_start(scene_of(box, {listed(0.5, {{1.0, 1.0}, {1.0 + distance, 1.0}})})); };
   };
-  EXPECT_EQ(refusal(pair(1.0)), "");
-  EXPECT_EQ(refusal(pair(1.0 - 0.9e-9)), "");
-  EXPECT_THAT(refusal(pair(1.0 - 1.1e-9)), HasSubstr("disks 0 and 1 overlap by 1.1e-09"));
-  EXPECT_THAT(refusal(pair(0.75)), HasSubstr("disks 0 and 1 overlap by 0.25; their centres must be at least 1 apart"));
+  EXPECT_EQ(refusal<SceneError>(pair(1.0)), "");
+  EXPECT_EQ(refusal<SceneError>(pair(1.0 - 0.9e-9)), "");
+  EXPECT_THAT(refusal<SceneError>(pair(1.0 - 1.1e-9)), HasSubstr("disks 0 and 1 overlap by 1.1e-09"));
+  EXPECT_THAT(refusal<SceneError>(pair(0.75)),
+              HasSubstr("disks 0 and 1 overlap by 0.25; their centres must be at least 1 apart"));
 }
 
 TEST(Positions, OverlapAcrossAPeriodicEdgeIsNamedWithItsIds) {
   Box box = box_of(4.0, 4.0, Boundary::walls);
   const std::vector<Species> species = {at_random(2, 0.01), listed(0.5, {{0.5, 2.0}, {3.75, 2.0}})};
-  EXPECT_NE(refusal([&] { (void)draw_start(scene_of(box, species)); }), "");  // sticks out at 3.75
+  EXPECT_NE(refusal<SceneError>([&] { (void)draw_start(scene_of(box, species)); }), "");  // sticks out at 3.75
   box.boundary[0] = Boundary::periodic;
-  const std::string sentence = refusal([&] { (void)draw_start(scene_of(box, species)); });
+  const std::string sentence = refusal<SceneError>([&] { (void)draw_start(scene_of(box, species)); });
   EXPECT_THAT(sentence, HasSubstr("disks 2 and 3 overlap by 0.25"));
 }
 
 TEST(Positions, DisksOutsideTheBoxAreRefused) {
   const Box box = box_of(1.0, 1.0, Boundary::walls);
-  const auto at = [&](double x, double y) { return refusal([&] { (void)draw_start(scene_of(box, {listed(0.1, {{x, y}})})); }); };
+  const auto at = [&](double x, double y) {
+    return refusal<SceneError>([&] { (void)draw_start(scene_of(box, {listed(0.1, {{x, y}})})); });
+  };
   EXPECT_EQ(at(0.1, 0.9), "");
   EXPECT_EQ(at(0.1 - 1e-10, 0.5), "");
   EXPECT_THAT(at(0.0999, 0.5), HasSubstr("disk 0 is outside the box: its x = 0.0999 must lie from 0.1 to 0.9"));
   EXPECT_THAT(at(0.5, 1.5), HasSubstr("its y = 1.5"));
   EXPECT_THAT(at(std::nan(""), 0.5), HasSubstr("disks.0.positions.0.0 is a floating-point number (nan)"));
-  EXPECT_NE(refusal([&] { (void)draw_start(scene_of(box, {at_random(1, 0.6)})); }), "");
-  EXPECT_NE(refusal([&] { (void)draw_start(scene_of(box, {species_of(1, 0.6, 1.0, SquareLattice{}, AtRest{})})); }), "");
+  EXPECT_NE(refusal<SceneError>([&] { (void)draw_start(scene_of(box, {at_random(1, 0.6)})); }), "");
+  EXPECT_NE(refusal<SceneError>([&] { (void)draw_start(scene_of(box, {species_of(1, 0.6, 1.0, SquareLattice{}, AtRest{})})); }),
+            "");
 }
 
 TEST(Positions, ImpossibleRequestsSayWhatWouldBePossible) {
   const Box box = box_of(10.0, 10.0, Boundary::periodic);
-  const auto start = [&](const Species& species) { return refusal([&] { (void)draw_start(scene_of(box, {species})); }); };
+  const auto start = [&](const Species& species) {
+    return refusal<SceneError>([&] { (void)draw_start(scene_of(box, {species})); });
+  };
   const std::string square = start(species_of(101, 0.5, 1.0, SquareLattice{}, AtRest{}));
   EXPECT_THAT(square, HasSubstr("a square lattice of 101 disks in this box has a spacing of 0.909091, less than the diameter 1"));
   EXPECT_THAT(square, HasSubstr("\"hexagonal\""));
@@ -172,15 +179,17 @@ TEST(Positions, ImpossibleRequestsSayWhatWouldBePossible) {
 TEST(Positions, ALatticeUponListedDisksIsRefused) {
   const Scene scene = scene_of(box_of(10.0, 10.0, Boundary::periodic),
                                {listed(0.5, {{0.5, 0.5}}), species_of(9, 0.5, 1.0, SquareLattice{}, AtRest{})});
-  EXPECT_EQ(refusal([&] { (void)draw_start(scene); }), "");  // sites 1.67, 5, 8.33
+  EXPECT_EQ(refusal<SceneError>([&] { (void)draw_start(scene); }), "");  // sites 1.67, 5, 8.33
   const Scene clash = scene_of(box_of(10.0, 10.0, Boundary::periodic),
                                {listed(0.5, {{5.0, 5.0}}), species_of(9, 0.5, 1.0, SquareLattice{}, AtRest{})});
-  EXPECT_THAT(refusal([&] { (void)draw_start(clash); }), HasSubstr("the square lattice puts disk 5 upon disk 0"));
+  EXPECT_THAT(refusal<SceneError>([&] { (void)draw_start(clash); }), HasSubstr("the square lattice puts disk 5 upon disk 0"));
 }
 
 TEST(Positions, IncompleteSpeciesAreRefused) {
   const Box box = box_of(1.0, 1.0, Boundary::walls);
-  const auto start = [&](const Species& species) { return refusal([&] { (void)draw_start(scene_of(box, {species})); }); };
+  const auto start = [&](const Species& species) {
+    return refusal<SceneError>([&] { (void)draw_start(scene_of(box, {species})); });
+  };
   Species few = listed(0.1, {{0.5, 0.5}});
   few.count = 2;
   EXPECT_THAT(start(few), HasSubstr("disks.0.count is 2, but positions has 1"));

@@ -1,6 +1,7 @@
 // A schedule that is saved at any of its moments and resumed hands on the same samples, events and blocks, and observables find
 // the same to the last bit, as if nothing had happened.
 
+#include "support/refusal.hpp"
 #include "support/same_measurements.hpp"
 #include "support/scenes.hpp"
 
@@ -228,16 +229,13 @@ Ended run_to_its_end(const Scene& scene, const std::optional<FixedStep>& step, c
 std::string refusal_of(const Scene& scene, const Saved& saved) {
   std::istringstream simulation(saved.simulation), schedule(saved.schedule), observables(saved.observables);
   Simulation restored = restore_simulation(scene, simulation);
-  try {
+  return refusal<std::runtime_error>([&] {
     Observation observation(restored, observables);
     RunHooks hooks;
     hooks.resume = &schedule;
     observation.attach(hooks);
     (void)run_schedule(restored, hooks);
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
+  });
 }
 
 TEST(ResumedSchedule, ChangedAndMissingBytesAreFoundBeforeAnyIsUsed) {

@@ -3,6 +3,7 @@
 // has.
 
 #include "support/effect_scenes.hpp"
+#include "support/refusal.hpp"
 #include "support/scenes.hpp"
 #include "support/systems.hpp"
 
@@ -38,12 +39,7 @@ Simulation restored(const Scene& scene, const std::string& bytes) {
 
 /// What is said of a stream; empty where it is restored.
 std::string said_of(const Scene& scene, const std::string& bytes) {
-  try {
-    (void)restored(scene, bytes);
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return {};
+  return refusal<std::runtime_error>([&] { return restored(scene, bytes); });
 }
 
 void expect_same_way(Simulation& a, Simulation& b) {

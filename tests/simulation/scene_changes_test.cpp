@@ -5,6 +5,7 @@
 #include "live/live_run.hpp"
 #include "observe/mechanics.hpp"
 #include "support/effect_scenes.hpp"
+#include "support/refusal.hpp"
 #include "support/scenes.hpp"
 
 #include <carom/observe.hpp>
@@ -363,7 +364,7 @@ TEST(SceneChanges, ThatDisksBlockEndTheRunWithWhatItHas) {
   EXPECT_EQ(samples, 4U);
   EXPECT_EQ(simulation.time(), 1.5);
   Simulation by_hand = make_simulation(scene);
-  EXPECT_THAT(refusal([&] { by_hand.run_until(3.0); }), HasSubstr("cannot be made"));
+  EXPECT_THAT(refusal<SceneError>([&] { by_hand.run_until(3.0); }), HasSubstr("cannot be made"));
   EXPECT_EQ(by_hand.time(), 1.5);
 }
 

@@ -1,5 +1,6 @@
 // Runs that go nowhere end, and say who holds them up; starts that overlap run where they are told to.
 
+#include "support/refusal.hpp"
 #include "support/scenes.hpp"
 #include "support/systems.hpp"
 
@@ -320,14 +321,14 @@ time = 1.0
 )";
 
 TEST(AcceptOverlap, AnOverlappingStartIsRefusedUnlessItIsAccepted) {
-  EXPECT_THAT(refusal([] { (void)parse_scene(overlapping); }), HasSubstr("disks 0 and 1 overlap by 0.25"));
+  EXPECT_THAT(refusal<SceneError>([] { (void)parse_scene(overlapping); }), HasSubstr("disks 0 and 1 overlap by 0.25"));
   Scene scene = parse_scene(overlapping, "scene", {"run.accept_overlap=true"});
   Simulation simulation = make_simulation(scene);
   EXPECT_EQ(simulation.run_until(1.0), StopReason::time);
   EXPECT_EQ(simulation.totals().pair, 1U);
   EXPECT_EQ(simulation.state().velocities.col(1), Eigen::Vector2d(1.0, 0.0));
   scene.run.accept_overlap = false;
-  EXPECT_THAT(refusal([&] { (void)make_simulation(scene); }), HasSubstr("disks 0 and 1 overlap by 0.25"));
+  EXPECT_THAT(refusal<SceneError>([&] { (void)make_simulation(scene); }), HasSubstr("disks 0 and 1 overlap by 0.25"));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "observe/mechanics.hpp"
 #include "simulation/start.hpp"
+#include "support/refusal.hpp"
 #include "support/scenes.hpp"
 
 #include <gtest/gtest.h>
@@ -206,7 +207,9 @@ TEST(Velocities, ADiskThatFillsTheBoxFromWallToWallMustNotMoveThatWay) {
   const Box channel = box_of(10.0, 1.0, Boundary::walls);
   const auto start = [&](double vx, double vy) {
     const ListedPositions place{{{5.0, 0.5}}};
-    return refusal([&] { (void)draw_start(scene_of(channel, {species_of(1, 0.5, 1.0, place, ListedVelocities{{{vx, vy}}})})); });
+    return refusal<SceneError>([&] {
+      (void)draw_start(scene_of(channel, {species_of(1, 0.5, 1.0, place, ListedVelocities{{{vx, vy}}})}));
+    });
   };
   EXPECT_EQ(start(1.0, 0.0), "");
   EXPECT_EQ(start(1.0, 0.1),

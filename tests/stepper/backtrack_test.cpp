@@ -7,6 +7,7 @@
 #include "stepper/stepper.hpp"
 #include "stepper/swept.hpp"
 #include "support/exact_run.hpp"
+#include "support/refusal.hpp"
 #include "support/scenes.hpp"
 #include "support/systems.hpp"
 
@@ -342,14 +343,11 @@ TEST(Swept, IsThatSearchForDisksThatCollisionsMakeFasterThanTheListExpects) {
 
 TEST(Swept, ABoxTooNarrowToTellImagesApartIsRefused) {
   Scene scene = scene_of(box_of(1.5, 8.0, Boundary::periodic), {species_of(1, 0.5, 1.0, SquareLattice{}, AtRest{})});
-  try {
-    (void)make_simulation(scene, FixedStep{"swept", 0.1});
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(),
-                 "the method \"swept\" cannot tell a disk from its images where a periodic box of length 1.5 is shorter than 2.1 "
-                 "diameters of 1; take \"backtrack\"");
-  }
+  EXPECT_EQ(refusal<std::invalid_argument>([&] {
+              return make_simulation(scene, FixedStep{"swept", 0.1});
+            }),
+            "the method \"swept\" cannot tell a disk from its images where a periodic box of length 1.5 is shorter than 2.1 "
+            "diameters of 1; take \"backtrack\"");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "stepper/guarded.hpp"
 #include "stepper/stepper.hpp"
 #include "support/exact_run.hpp"
+#include "support/refusal.hpp"
 #include "support/scenes.hpp"
 #include "support/systems.hpp"
 
@@ -177,13 +178,8 @@ TEST(Soft, IsTheSearchOfAllPairsToTheLastBit) {
 }
 
 TEST(Soft, WhatASpringCannotDoIsRefused) {
-  const auto sentence = [](const Scene& scene) -> std::string {
-    try {
-      (void)make_simulation(scene, FixedStep{"soft", 0.01});
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
-    return "";
+  const auto sentence = [](const Scene& scene) {
+    return refusal<std::invalid_argument>([&] { return make_simulation(scene, FixedStep{"soft", 0.01}); });
   };
   Scene scene = gas_scene(4, 0.1, Boundary::walls);
   EXPECT_EQ(sentence(scene), "");

@@ -2,6 +2,7 @@
 
 #include "observe/energy.hpp"
 #include "support/exact_run.hpp"
+#include "support/refusal.hpp"
 #include "support/scenes.hpp"
 #include "support/systems.hpp"
 
@@ -196,14 +197,11 @@ TEST(StepEffects, ThoseThatNoStepKnowsAreRefusedByName) {
   (void)make_simulation(scene, FixedStep{"grid", 0.1});
   scene.effects.shear = Shear{0.1};
   scene.effects.drag = Drag{0.0};
-  try {
-    (void)make_simulation(scene, FixedStep{"grid", 0.1});
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(),
-                 "fixed-step methods know the collision rule, hard walls, restitution, gravity, inelastic_walls, obstacles, "
-                 "circle; this scene asks for shear besides, which exact events alone simulate");
-  }
+  EXPECT_EQ(refusal<std::invalid_argument>([&] {
+              return make_simulation(scene, FixedStep{"grid", 0.1});
+            }),
+            "fixed-step methods know the collision rule, hard walls, restitution, gravity, inelastic_walls, obstacles, "
+            "circle; this scene asks for shear besides, which exact events alone simulate");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "scene/observables_known.hpp"
 #include "support/child_process.hpp"
 #include "support/recorded_run.hpp"
+#include "support/refusal.hpp"
 #include "support/same_measurements.hpp"
 
 #include <fmt/format.h>
@@ -188,12 +189,7 @@ class Analysis : public ::testing::Test {
   }
   template <class Error>
   [[nodiscard]] std::string refusal(const std::vector<std::string>& observables) const {
-    try {
-      (void)analyse(run_, observables);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "no such error";
+    return test::refusal<Error>([&] { return analyse(run_, observables); });
   }
 
   TemporaryDirectory directory_;

@@ -5,6 +5,7 @@
 #include "core/real.hpp"
 #include "support/child_process.hpp"
 #include "support/comparisons.hpp"
+#include "support/refusal.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -100,12 +101,7 @@ class Points : public ::testing::Test {
   }
   [[nodiscard]] std::string file() const { return directory_.file("points.jsonl"); }
   [[nodiscard]] std::string refusal_of(const std::string& key) const {
-    try {
-      (void)load_points(file(), key);
-    } catch (const OutputError& error) {
-      return error.what();
-    }
-    return {};
+    return refusal<OutputError>([&] { return load_points(file(), key); });
   }
 
  private:

@@ -8,6 +8,7 @@
 #include "studies/compare/reference.hpp"
 #include "studies/horizon/event_rates.hpp"
 #include "support/comparisons.hpp"
+#include "support/refusal.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -258,13 +259,8 @@ TEST(Compare, OfAGasThatCoolsTheEngineThatRunsItIsComparedAndThereIsNoZ) {
 }
 
 TEST(Compare, ScenesWithoutCollisionsAreRefusedInASentence) {
-  const auto sentence = [](const Scene& scene) -> std::string {
-    try {
-      (void)compare(scene, dozen_options(), {});
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
-    return {};
+  const auto sentence = [](const Scene& scene) {
+    return refusal<std::invalid_argument>([&] { return compare(scene, dozen_options(), {}); });
   };
   Scene parallel =
       scene_of(box_of(8.0, 8.0, Boundary::periodic),

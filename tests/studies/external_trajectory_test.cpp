@@ -3,6 +3,7 @@
 #include "studies/compare/external_trajectory.hpp"
 #include "studies/compare/trajectory_file.hpp"
 #include "support/child_process.hpp"
+#include "support/refusal.hpp"
 #include "support/systems.hpp"
 #include "support/temporary_directory.hpp"
 
@@ -30,12 +31,7 @@ class ExternalTrajectoryFile : public ::testing::Test {
     return read_trajectory_file(directory_.file(name), scene_, disks_, every);
   }
   void refused(const std::string& name, const std::string& bytes, const std::string& sentence, std::optional<double> every = {}) {
-    try {
-      (void)read(name, bytes, every);
-      ADD_FAILURE() << "not refused: " << sentence;
-    } catch (const std::exception& error) {
-      EXPECT_THAT(error.what(), HasSubstr(sentence));
-    }
+    EXPECT_THAT(refusal<std::exception>([&] { return read(name, bytes, every); }), HasSubstr(sentence));
   }
 
   TemporaryDirectory directory_;

@@ -6,6 +6,7 @@
 #include "studies/hard_cases/run.hpp"
 #include "studies/hard_cases/steps.hpp"
 #include "studies/hard_cases/table.hpp"
+#include "support/refusal.hpp"
 
 #include <carom/scene.hpp>
 
@@ -87,12 +88,7 @@ std::string with(const std::string& old, const std::string& fresh) {
 }
 
 std::string refusal_of(const std::string& text) {
-  try {
-    parse_scene(read_hard_case(text, "case.toml").scene, "case.toml");
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return "";
+  return refusal<SceneError>([&] { return parse_scene(read_hard_case(text, "case.toml").scene, "case.toml"); });
 }
 
 TEST(HardCaseReader, HexfloatsBecomeTheSameNumbers) {

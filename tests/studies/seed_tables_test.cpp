@@ -3,6 +3,7 @@
 #include "studies/sweep/seed_tables.hpp"
 #include "studies/sweep/products.hpp"
 
+#include "support/refusal.hpp"
 #include "support/sweep_files.hpp"
 
 #include <fmt/format.h>
@@ -78,12 +79,10 @@ TEST(ValueAt, OfCellsIsThatOfTheCellThatContainsThePlace) {
 }
 
 TEST(MeanOfTables, OfOtherLagsIsRefused) {
-  try {
-    (void)mean_of_tables({seed_table({1, 2}, {1, 5}), seed_table({1, 2.5}, {1, 5})});
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("its lag differs from seed to seed"));
-  }
+  EXPECT_THAT(refusal<std::runtime_error>([] {
+                return mean_of_tables({seed_table({1, 2}, {1, 5}), seed_table({1, 2.5}, {1, 5})});
+              }),
+              HasSubstr("its lag differs from seed to seed"));
 }
 
 TEST(SeedTables, OfRadiiDrawnWithEachSeedSayThatTheseDiffer) {

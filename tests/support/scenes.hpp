@@ -63,15 +63,4 @@ inline double smallest_distance(const Box& box, const Eigen::Matrix2Xd& position
   return smallest;
 }
 
-/// What a refused scene says; empty where nothing is refused.
-template <class Action>
-std::string refusal(Action action) {
-  try {
-    action();
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return {};
-}
-
 }  // namespace carom::test

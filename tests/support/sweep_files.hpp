@@ -2,6 +2,7 @@
 // A directory with a scene, gas.toml, and sweep files beside it.
 
 #include "support/program_test.hpp"
+#include "support/refusal.hpp"
 
 #include "studies/sweep/sweep.hpp"
 
@@ -20,12 +21,8 @@ class SweepFiles {
   }
   /// What load_sweep says of it, behind the path of the directory; empty where nothing is wrong.
   [[nodiscard]] std::string refusal(const std::string& text) const {
-    try {
-      (void)load(text);
-      return "";
-    } catch (const SceneError& error) {
-      return std::string(error.what()).substr(directory_.path().string().size() + 1);
-    }
+    const std::string said = test::refusal<SceneError>([&] { return load(text); });
+    return said.empty() ? said : said.substr(directory_.path().string().size() + 1);
   }
 
  private:
