@@ -3,6 +3,7 @@
 
 #include "support/effect_scenes.hpp"
 #include "support/engines.hpp"
+#include "support/same_events.hpp"
 #include "support/scenes.hpp"
 #include "support/systems.hpp"
 
@@ -27,11 +28,6 @@ Scene every_kind_of_event() {
   scene.species[0].positions = RandomPositions{};
   scene.effects.obstacles = {DiskObstacle{0.5 * scene.box.upper, 0.4}};
   return scene;
-}
-
-bool same_event(const Event& a, const Event& b) {
-  return a.time == b.time && a.time_remainder == b.time_remainder && a.disk == b.disk && a.partner == b.partner &&
-         a.velocity == b.velocity && a.partner_velocity == b.partner_velocity;
 }
 
 TEST(Steps, AreTheEventsOfTheLogOneByOne) {

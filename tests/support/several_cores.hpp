@@ -1,12 +1,15 @@
 #pragma once
 // What a run on several cores or processes is held against: the same run on one.
 
+#include "support/same_events.hpp"
+#include "support/same_totals.hpp"
 #include "support/systems.hpp"
 
 #include <carom/simulation.hpp>
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <span>
 #include <sstream>
 #include <string>
@@ -38,27 +41,9 @@ inline Scene mixture(std::int64_t disks) {
 /// What must be the same: state, clock, and everything that has been counted.
 inline void expect_same(const Simulation& alone, const Simulation& shared, const std::string& where) {
   EXPECT_EQ(state_hash(shared.state()), state_hash(alone.state())) << where;
-  const Totals a = alone.totals(), b = shared.totals();
-  EXPECT_EQ(b.pair, a.pair) << where;
-  EXPECT_EQ(b.wall, a.wall) << where;
-  EXPECT_EQ(b.other, a.other) << where;
-  EXPECT_EQ(b.stale, a.stale) << where;
-  EXPECT_EQ(b.virial, a.virial) << where;
-  EXPECT_EQ(b.obstacle, a.obstacle) << where;
-  EXPECT_EQ(b.wall_impulse, a.wall_impulse) << where;
-  EXPECT_EQ(b.wall_energy, a.wall_energy) << where;
-  EXPECT_EQ(b.obstacle_impulse, a.obstacle_impulse) << where;
-  EXPECT_EQ(b.dissipated, a.dissipated) << where;
-  EXPECT_EQ(b.growth_energy, a.growth_energy) << where;
-  EXPECT_EQ(b.thermostat, a.thermostat) << where;
-  EXPECT_EQ(b.thermostat_energy, a.thermostat_energy) << where;
-  EXPECT_EQ(b.well, a.well) << where;
+  EXPECT_EQ(different_totals_of_cores(alone.totals(), shared.totals()), "") << where;
   EXPECT_EQ(shared.state().bonds, alone.state().bonds) << where;
-  EXPECT_EQ(b.numerics.epochs, a.numerics.epochs) << where;
-  EXPECT_EQ(b.numerics.list_rebuilds, a.numerics.list_rebuilds) << where;
-  EXPECT_EQ(b.numerics.longest_neighbour_list, a.numerics.longest_neighbour_list) << where;
-  EXPECT_EQ(b.numerics.deepest_overlap, a.numerics.deepest_overlap) << where;
-  EXPECT_EQ(shared.counts().pair, a.pair) << where;
+  EXPECT_EQ(shared.counts().pair, alone.totals().pair) << where;
   EXPECT_EQ(shared.time(), alone.time()) << where;
 }
 
@@ -87,19 +72,30 @@ inline ThreadCounts expect_same_at(const std::vector<double>& times, const Scene
   return shared.thread_counts();
 }
 
-/// The log of a run, with time, disk, partner and a number of velocities of each event.
-inline std::vector<double> told_events(const Scene& scene, const Threads& threads) {
-  std::vector<double> told;
+/// The events of a whole run, as run_schedule() tells them.
+inline std::vector<Event> told_events(Simulation& simulation) {
+  std::vector<Event> told;
+  RunHooks hooks;
+  hooks.events = [&](std::span<const Event> events) { told.insert(told.end(), events.begin(), events.end()); };
+  run_schedule(simulation, hooks);
+  return told;
+}
+
+inline std::vector<Event> told_events(const Scene& scene, const Threads& threads) {
   Simulation simulation = make_simulation(scene);
   simulation.set_threads(threads);
+  return told_events(simulation);
+}
+
+/// The collisions of a whole run, as run_schedule() tells them to those who follow disks: the time, the slots, and the
+/// velocities.
+inline std::vector<std::array<double, 11>> told_records(Simulation& simulation) {
+  std::vector<std::array<double, 11>> told;
   RunHooks hooks;
-  hooks.events = [&](std::span<const Event> events) {
-    for (const Event& event : events) {
-      told.push_back(event.time);
-      told.push_back(event.disk);
-      told.push_back(event.partner);
-      told.push_back(event.velocity[0] - event.partner_velocity[1]);
-    }
+  hooks.collisions = [&](const CollisionRecords& collisions) {
+    for (const CollisionRecord& r : collisions.records)
+      told.push_back({collisions.epoch + r.time, static_cast<double>(r.slot_i), static_cast<double>(r.slot_j), r.before_i[0],
+                      r.before_i[1], r.before_j[0], r.before_j[1], r.after_i[0], r.after_i[1], r.after_j[0], r.after_j[1]});
   };
   run_schedule(simulation, hooks);
   return told;
