@@ -145,29 +145,13 @@ std::vector<Obstacle> bean() {
           fixed_arc({5.0, 7.0}, 2.0, -180.0, 180.0), fixed_segment({3.0, 3.0}, {7.0, 3.0})};
 }
 
-void holds_its_disk(const std::vector<Obstacle>& sides, const Vec2<double>& start, double radius, const Vec2<double>& g) {
-  Billiard disk(square_room, sides, start, {0.6, 0.8}, radius);
-  disk.g = g;
-  const double energy = disk.energy();
-  for (int k = 0; k < 60'000; ++k) {
-    const auto meeting = disk.next(100.0);
-    ASSERT_GE(meeting.obstacle, 0) << "got out at bounce " << k;
-    for (const double part : {meeting.time / 2, meeting.time - meeting.time / 2}) {
-      disk.fly(part);
-      ASSERT_GT(disk.clearance(sides), -2e-12) << "bounce " << k << ", " << disk.r.transpose();
-    }
-    disk.bounce(meeting.obstacle);
-  }
-  EXPECT_NEAR(disk.energy(), energy, 1e-11 * (1.0 + std::abs(energy)));
-}
-
 TEST(ArcFlights, AStadiumHoldsItsDisk) {
-  holds_its_disk(stadium(2.0, 2.0), {5.1, 4.7}, 0.5, {0.0, 0.0});
+  holds_its_disk(stadium(2.0, 2.0), {5.1, 4.7}, 0.5);
   holds_its_disk(stadium(2.0, 2.0), {5.1, 4.7}, 0.5, {0.0, -0.3});
-  holds_its_disk(stadium(2.0, 2.0), {5.1, 4.7}, 1.9, {0.0, 0.0});
+  holds_its_disk(stadium(2.0, 2.0), {5.1, 4.7}, 1.9);
 }
 TEST(ArcFlights, ABeanHoldsItsDisk) {
-  holds_its_disk(bean(), {3.0, 4.8}, 0.3, {0.0, 0.0});
+  holds_its_disk(bean(), {3.0, 4.8}, 0.3);
   holds_its_disk(bean(), {3.0, 4.8}, 0.3, {-0.2, -0.3});
 }
 TEST(ArcFlights, ADrumUnderGravityKeepsTheEnergy) {

@@ -5,7 +5,9 @@
 #include "effects/obstacles.hpp"
 #include "support/scenes.hpp"
 
-#include <initializer_list>
+#include <gtest/gtest.h>
+
+#include <cmath>
 #include <vector>
 
 namespace carom::test {
@@ -76,5 +78,23 @@ struct Billiard {
   }
   [[nodiscard]] double energy() const { return v.squaredNorm() / 2 - g.dot(r); }
 };
+
+/// A disk bounces in a closed room within a box of 10 times 10: it never gets out nor into a side, and keeps its energy.
+inline void holds_its_disk(const std::vector<Obstacle>& sides, const Vec2<double>& start, double radius,
+                           const Vec2<double>& g = Vec2<double>::Zero()) {
+  Billiard disk(box_of(10.0, 10.0, Boundary::walls), sides, start, {0.6, 0.8}, radius);
+  disk.g = g;
+  const double energy = disk.energy();
+  for (int k = 0; k < 100'000; ++k) {
+    const auto meeting = disk.next(100.0);
+    ASSERT_GE(meeting.obstacle, 0) << "got out at bounce " << k;
+    for (const double part : {meeting.time / 2, meeting.time - meeting.time / 2}) {
+      disk.fly(part);
+      ASSERT_GT(disk.clearance(sides), -2e-12) << "bounce " << k << ", " << disk.r.transpose();
+    }
+    disk.bounce(meeting.obstacle);
+  }
+  EXPECT_NEAR(disk.energy(), energy, 1e-11 * (1.0 + std::abs(energy)));
+}
 
 }  // namespace carom::test
