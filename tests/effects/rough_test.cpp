@@ -25,17 +25,6 @@ State spinning(State state, const Eigen::VectorXd& spins) {
   return state;
 }
 
-/// sum of m r x v + I w about the origin
-double angular_momentum(const Disks& disks, const State& state) {
-  double sum = 0.0;
-  for (Eigen::Index i = 0; i < state.positions.cols(); ++i) {
-    const double m = disks.mass[static_cast<std::size_t>(i)], radius = disks.radius[static_cast<std::size_t>(i)];
-    const V r = state.positions.col(i), v = state.velocities.col(i);
-    sum += m * (r.x() * v.y() - r.y() * v.x()) + m * radius * radius / 2 * state.spins[i];
-  }
-  return sum;
-}
-
 double all_energy(const Disks& disks, const State& state) { return kinetic_energy(disks, state) + spin_energy(disks, state); }
 
 /// Two disks of any size that meet at t = 1 with their line of centres along (0.8, 0.6).

@@ -18,12 +18,6 @@ Scene one_disk(const V& r, const V& v, double mass = 1.0) {
   return scene_of_placed(box_of(8.0, 4.0, Boundary::walls), {{r, v, 0.5, mass}});
 }
 
-double given_by_walls(const Totals& totals) {
-  double sum = 0.0;
-  for (const double taken : totals.wall_energy) sum -= taken;
-  return sum;
-}
-
 // ------------------------------------------------------------------------------------------ thermal walls
 
 TEST(ThermalWalls, SendDisksOffWithTheVelocitiesOfThoseWhoCrossAPlane) {

@@ -23,10 +23,6 @@ const Observed& fluid_with_correlations() {
   return observed;
 }
 
-Eigen::Matrix2Xd unwrapped(const Observed& o, const State& state) {
-  return state.positions + (state.images.cast<double>().array().colwise() * o.scene.box.lengths().array()).matrix();
-}
-
 /// Mean of f(earlier, later) over pairs of states k steps apart, the first at a multiple of `stride`.
 template <class F>
 double over_pairs(const Observed& o, std::size_t k, std::size_t stride, F f) {
@@ -47,8 +43,9 @@ TEST(ObservedCorrelations, MeanSquareDisplacementIsThatOfAllPairsOfStates) {
     // Beyond 15 steps pairs are those on a grid of 2, 4, 8, ... steps: the smallest power that leaves fewer than 16 of them.
     std::size_t stride = 1;
     while (k / stride >= 16) stride *= 2;
-    const double msd = over_pairs(
-        o, k, stride, [&](const State& a, const State& b) { return (unwrapped(o, b) - unwrapped(o, a)).squaredNorm() / 40.0; });
+    const double msd = over_pairs(o, k, stride, [&](const State& a, const State& b) {
+      return (unwrapped(o.scene.box, b) - unwrapped(o.scene.box, a)).squaredNorm() / 40.0;
+    });
     EXPECT_NEAR(o.column("mean_square_displacement", 0, "msd")[r], msd, rounding_of_correlations) << "lag " << lags[r];
     EXPECT_NEAR(o.column("mean_square_displacement", 0, "diffusion")[r], msd / (4.0 * lags[r]), rounding_of_correlations);
   }
@@ -141,7 +138,7 @@ TEST(ObservedCorrelations, LongerLagsCorrelateDisplacementsOverWindows) {
   const Observed& o = fluid_with_correlations();
   std::vector<Eigen::Matrix2Xd> means;
   for (std::size_t t = 0; t + 2 < o.record.states.size(); t += 2)
-    means.push_back((unwrapped(o, o.record.states[t + 2]) - unwrapped(o, o.record.states[t])) / 0.1);
+    means.push_back((unwrapped(o.scene.box, o.record.states[t + 2]) - unwrapped(o.scene.box, o.record.states[t])) / 0.1);
   const auto& windows = o.column("velocity_autocorrelation", 0, "window");
   int compared = 0;
   for (std::size_t r = 0; r < windows.size(); ++r) {
@@ -160,8 +157,9 @@ TEST(ObservedCorrelations, LongerLagsCorrelateDisplacementsOverWindows) {
 TEST(ObservedCorrelations, DiffusionCoefficientIsTheSlopeOfTheDisplacement) {
   const Observed o = observe(parse_scene(small_fluid("velocity_autocorrelation = { every = 0.05 }", "specular", "40.0")), 0.05);
   const auto square = [&](std::size_t k) {
-    return over_pairs(o, k, 1,
-                      [&](const State& a, const State& b) { return (unwrapped(o, b) - unwrapped(o, a)).squaredNorm() / 40.0; });
+    return over_pairs(o, k, 1, [&](const State& a, const State& b) {
+      return (unwrapped(o.scene.box, b) - unwrapped(o.scene.box, a)).squaredNorm() / 40.0;
+    });
   };
   for (const std::size_t k : {0U, 3U, 10U}) {
     const double slope = (square(k + 1) - (k > 0 ? square(k) : 0.0)) / (4.0 * 0.05);

@@ -2,7 +2,6 @@
 
 #include "pages/player_page.hpp"
 
-#include "observe/geometry.hpp"
 #include "pages/visited_page.hpp"
 #include "support/browser.hpp"
 #include "support/child_process.hpp"
@@ -10,7 +9,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <random>
@@ -46,28 +44,7 @@ events = true
 Visit played(const Scene& scene, const std::string& script, int seconds = 5) {
   const TemporaryDirectory directory;
   record(scene, directory.path() / "run");
-  std::string html = player_page(player_data(RunReader(directory.path() / "run")));
-  html.insert(html.rfind("</body>"), "<script>\n{\n" + script + "}\n</script>\n");
-  write_text(directory.path() / "player.html", html);
-  return visit(directory.path() / "player.html", Screen::light, seconds);
-}
-
-/// What the engine has at these times, for player_pictures.js.
-std::string states_at(const Scene& scene, const std::vector<double>& times) {
-  nlohmann::json states = nlohmann::json::array();
-  Simulation simulation = make_simulation(scene);
-  for (const double time : times) {
-    simulation.run_until(time);
-    const State state = simulation.state();
-    const Box box = box_of(scene.box, state);
-    nlohmann::json positions = nlohmann::json::array();
-    for (Eigen::Index i = 0; i < state.positions.cols(); ++i) positions.push_back({state.positions(0, i), state.positions(1, i)});
-    states.push_back({{"time", time},
-                      {"positions", positions},
-                      {"walls", {box.lower.x(), box.upper.x(), box.lower.y(), box.upper.y()}},
-                      {"scale", state.scale}});
-  }
-  return "const expected = " + states.dump() + ";\n";
+  return visit_with(player_page(player_data(RunReader(directory.path() / "run"))), script, seconds);
 }
 
 std::vector<double> five_random_instants(double until) {
@@ -79,7 +56,8 @@ std::vector<double> five_random_instants(double until) {
 }
 
 void expect_positions_of_the_engine(const Scene& scene, double until) {
-  const Visit visit = played(scene, states_at(scene, five_random_instants(until)) + script("player_pictures.js"));
+  const Visit visit =
+      played(scene, states_at(make_simulation(scene), five_random_instants(until)) + script("player_pictures.js"));
   expect_clean(visit);
   EXPECT_EQ(data(visit, "apart"), "less than a hundredth of a pixel");
   EXPECT_EQ(data(visit, "wrong"), "none");
@@ -125,7 +103,7 @@ TEST(BrowserPlayer, ADiskCrossesTheEdgesOfAShearedBoxWhereItShould) {
                                    "disks.0.velocities=[[3.0, 2.5]]", "shear.rate=0.3"});
   // Its velocity changes at an edge by as much as the images beyond move, so that lines from sample to sample are its path.
   // Places of samples are rounded by half of a 65535th of what the disk visits: at most the box.
-  const Visit visit = played(scene, states_at(scene, {0.7, 1.7, 4.9, 5.1, 8.3, 11.6}) + R"(
+  const Visit visit = played(scene, states_at(make_simulation(scene), {0.7, 1.7, 4.9, 5.1, 8.3, 11.6}) + R"(
     let apart = 0;
     for (const { time, positions } of expected) {
       carom.seek(time);
@@ -201,7 +179,7 @@ TEST(BrowserPlayer, ShowsAllOfTheBoxWhileAWallVibrates) {
 TEST(BrowserPlayer, DrawsDisksFromSamplesAtTheirInstantsAndSaysSo) {
   if (!has_browser()) GTEST_SKIP() << no_browser;
   const Scene scene = parse_scene(watched_gas, "gas", {"thermostat.temperature=1.0", "thermostat.rate=1.0"});
-  const Visit visit = played(scene, states_at(scene, {6.5}) + script("player_pictures.js"));
+  const Visit visit = played(scene, states_at(make_simulation(scene), {6.5}) + script("player_pictures.js"));
   expect_clean(visit);
   EXPECT_EQ(data(visit, "apart"), "less than a hundredth of a pixel");
   EXPECT_EQ(data(visit, "wrong"), "none");

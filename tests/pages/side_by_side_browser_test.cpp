@@ -11,7 +11,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <random>
@@ -46,28 +45,8 @@ SideBySide flown_in_steps(const Scene& scene, const std::string& method) {
 }
 
 Visit played(const Scene& scene, const SideBySide& shown, const std::string& script) {
-  const TemporaryDirectory directory;
   const Lyapunov lyapunov{2.0, 0.1, 1.0, 0.05, 2.0, 1000};
-  std::string html = side_by_side_page(shown, scene, lyapunov, "in a test");
-  html.insert(html.rfind("</body>"), "<script>\n{\n" + script + "}\n</script>\n");
-  write_text(directory.path() / "side_by_side.html", html);
-  return visit(directory.path() / "side_by_side.html", Screen::light, 5);
-}
-
-/// What a simulation has at these times, for player_pictures.js.
-std::string states_at(Simulation simulation, const Box& box, const std::vector<double>& times) {
-  nlohmann::json states = nlohmann::json::array();
-  for (const double time : times) {
-    simulation.run_until(time);
-    const State state = simulation.state();
-    nlohmann::json positions = nlohmann::json::array();
-    for (Eigen::Index i = 0; i < state.positions.cols(); ++i) positions.push_back({state.positions(0, i), state.positions(1, i)});
-    states.push_back({{"time", time},
-                      {"positions", positions},
-                      {"walls", {box.lower.x(), box.upper.x(), box.lower.y(), box.upper.y()}},
-                      {"scale", 1.0}});
-  }
-  return "const expected = " + states.dump() + ";\n";
+  return visit_with(side_by_side_page(shown, scene, lyapunov, "in a test"), script);
 }
 
 /// Random ones at which no disks overlap, whose rings would be drawn over them.
@@ -106,8 +85,8 @@ TEST(BrowserSideBySide, DrawsTheExactSideWhereTheEngineHasIt) {
   if (!has_browser()) GTEST_SKIP() << no_browser;
   const Scene scene = parse_scene(flown_gas);
   const SideBySide shown = flown_in_steps(scene, "guarded");
-  expect_places(played(
-      scene, shown, states_at(make_simulation(scene), scene.box, {0.0, 0.71, 1.9, 2.33, 3.99}) + script("player_pictures.js")));
+  expect_places(
+      played(scene, shown, states_at(make_simulation(scene), {0.0, 0.71, 1.9, 2.33, 3.99}) + script("player_pictures.js")));
 }
 
 TEST(BrowserSideBySide, DrawsTheOtherSideWhereTheMethodHasIt) {
@@ -117,7 +96,7 @@ TEST(BrowserSideBySide, DrawsTheOtherSideWhereTheMethodHasIt) {
     SCOPED_TRACE(method);
     const SideBySide shown = flown_in_steps(scene, method);
     expect_places(played(scene, shown,
-                         states_at(make_simulation(scene, FixedStep{method, 0.05}), scene.box, instants_without_overlaps(shown)) +
+                         states_at(make_simulation(scene, FixedStep{method, 0.05}), instants_without_overlaps(shown)) +
                              "window.shown = { canvas: document.getElementById(\"steps\"), moment: carom.stepsMoment };\n" +
                              script("player_pictures.js")));
   }

@@ -4,11 +4,15 @@
 #include "support/browser.hpp"
 #include "support/temporary_directory.hpp"
 
+#include <carom/simulation.hpp>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace carom::test {
 
@@ -24,6 +28,31 @@ inline std::string data(const Visit& visit, const std::string& name) {
   const std::size_t from = root.find(key);
   if (from == std::string::npos) return "there is no data-" + name;
   return root.substr(from + key.size(), root.find('"', from + key.size()) - from - key.size());
+}
+
+/// A page in the browser, after `script` ran behind its own.
+inline Visit visit_with(std::string html, const std::string& script, int seconds = 5) {
+  const TemporaryDirectory directory;
+  html.insert(html.rfind("</body>"), "<script>\n{\n" + script + "}\n</script>\n");
+  write_text(directory.path() / "page.html", html);
+  return visit(directory.path() / "page.html", Screen::light, seconds);
+}
+
+/// What a simulation has at these times, for player_pictures.js.
+inline std::string states_at(Simulation simulation, const std::vector<double>& times) {
+  nlohmann::json states = nlohmann::json::array();
+  for (const double time : times) {
+    simulation.run_until(time);
+    const State state = simulation.state();
+    const Box box = box_of(simulation.scene().box, state);
+    nlohmann::json positions = nlohmann::json::array();
+    for (Eigen::Index i = 0; i < state.positions.cols(); ++i) positions.push_back({state.positions(0, i), state.positions(1, i)});
+    states.push_back({{"time", time},
+                      {"positions", positions},
+                      {"walls", {box.lower.x(), box.upper.x(), box.lower.y(), box.upper.y()}},
+                      {"scale", state.scale}});
+  }
+  return "const expected = " + states.dump() + ";\n";
 }
 
 inline void expect_clean(const Visit& visit) {

@@ -14,12 +14,6 @@
 namespace carom::test {
 namespace {
 
-double given_by_walls(const Totals& totals) {
-  double sum = 0.0;
-  for (const double taken : totals.wall_energy) sum -= taken;
-  return sum;
-}
-
 TEST(PhysicsThermalWalls, TheGasTakesTheirTemperature) {
   // m <v^2> / 2 = kT within 1 %, whatever it was before. Half a Gaussian for the velocity across the wall, the classic mistake,
   // would bring in kT / 2 less with every second degree of freedom and leave the gas a quarter too cold.

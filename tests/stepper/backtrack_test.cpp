@@ -4,6 +4,7 @@
 #include "stepper/backtrack.hpp"
 #include "effects/reversal.hpp"
 #include "effects/specular.hpp"
+#include "stepper/any_disks.hpp"
 #include "stepper/stepper.hpp"
 #include "stepper/swept.hpp"
 #include "support/exact_run.hpp"
@@ -250,28 +251,12 @@ TEST(Backtrack, IsTheSearchOfAllPairsToTheLastBit) {
   expect_the_twin<Specular>(system_of(two_sizes_scene(300, 0.3, Boundary::periodic)), 0.01, 200, "two sizes");
 }
 
-double number(double from, double to) { return from + (to - from) * *rc::gen::inRange(0, 1 << 20) / double(1 << 20); }
-
-/// Any disks anywhere, upon each other too, in any box that is at least so wide.
-System any_disks(double least_width) {
-  const auto boundary = [] { return *rc::gen::arbitrary<bool>() ? Boundary::walls : Boundary::periodic; };
-  const Box box = box_of(number(least_width, 20.0), number(least_width, 20.0), boundary(), boundary());
-  const int disks = *rc::gen::inRange(0, 40);
-  std::vector<Placed> placed;
-  for (int i = 0; i < disks; ++i)
-    placed.push_back({{number(0.0, 0.999) * box.lengths()[0], number(0.0, 0.999) * box.lengths()[1]},
-                      {number(-2.0, 2.0), number(-2.0, 2.0)},
-                      number(0.05, 0.9),
-                      number(0.1, 9.0)});
-  return system_of(box, placed);
-}
-
 RC_GTEST_PROP(PropertyBacktrack, IsTheSearchOfAllPairsForAnyDisks, ()) {
-  expect_the_twin<Specular>(any_disks(2.0), std::pow(10.0, number(-3.0, 1.0)), 50, "any");
+  expect_the_twin<Specular>(any_disks(2.0), std::pow(10.0, any_number(-3.0, 1.0)), 50, "any");
 }
 
 RC_GTEST_PROP(PropertySwept, IsTheSearchOfAllPairsForAnyDisks, ()) {
-  expect_the_twin<Specular, AnywhereWithin>(any_disks(4.0), std::pow(10.0, number(-3.0, 0.5)), 20, "any");
+  expect_the_twin<Specular, AnywhereWithin>(any_disks(4.0), std::pow(10.0, any_number(-3.0, 0.5)), 20, "any");
 }
 
 TEST(Swept, FindsTheGrazeAtEveryStep) {

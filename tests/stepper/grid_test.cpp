@@ -1,5 +1,6 @@
 // The grid against the search of all pairs: the same trajectory to the last bit, whatever the box, the disks and the step.
 
+#include "stepper/any_disks.hpp"
 #include "support/scenes.hpp"
 #include "support/systems.hpp"
 
@@ -83,24 +84,14 @@ TEST(Grid, HoldsForNoDiskAndOne) {
 }
 
 RC_GTEST_PROP(PropertyGrid, IsTheSearchOfAllPairsForAnyDisks, ()) {
-  const auto number = [](double from, double to) { return from + (to - from) * *rc::gen::inRange(0, 1 << 20) / double(1 << 20); };
-  const Box box = box_of(number(2.0, 20.0), number(2.0, 20.0), *rc::gen::arbitrary<bool>() ? Boundary::walls : Boundary::periodic,
-                         *rc::gen::arbitrary<bool>() ? Boundary::walls : Boundary::periodic);
-  const int disks = *rc::gen::inRange(0, 40);
-  Scene scene = scene_of(box, {});
+  const System system = any_disks(2.0);
+  Scene scene = scene_of(system.box, {});
   scene.effects.collision.rule = *rc::gen::arbitrary<bool>() ? CollisionRule::specular : CollisionRule::reversal;
-  std::vector<Placed> placed;
-  for (int i = 0; i < disks; ++i) {  // anywhere, upon each other too
-    const Placed disk{{number(0.0, 0.999) * box.lengths()[0], number(0.0, 0.999) * box.lengths()[1]},
-                      {number(-2.0, 2.0), number(-2.0, 2.0)},
-                      number(0.05, 0.9),
-                      number(0.1, 9.0)};
-    placed.push_back(disk);
-    scene.species.push_back(species_of(1, disk.radius, disk.mass, RandomPositions{}, AtRest{}));
-  }
+  for (std::size_t i = 0; i < system.disks.count(); ++i)
+    scene.species.push_back(species_of(1, system.disks.radius[i], system.disks.mass[i], RandomPositions{}, AtRest{}));
   RC_PRE(scene.packing_fraction() < 1.0);
-  const double dt = std::pow(10.0, number(-3.0, 1.0));
-  expect_same(scene, system_of(box, placed).state, dt, 50 * dt, "any");
+  const double dt = std::pow(10.0, any_number(-3.0, 1.0));
+  expect_same(scene, system.state, dt, 50 * dt, "any");
 }
 
 }  // namespace

@@ -79,6 +79,25 @@ inline ThereAndBack there_and_back(const Scene& scene, const std::string& engine
   return {std::move(start), std::move(there), std::move(back)};
 }
 
+/// Of orbits about the origin and of spins.
+inline double angular_momentum(const Disks& disks, const State& state) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < disks.count(); ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    const auto r = state.positions.col(column), v = state.velocities.col(column);
+    sum += disks.mass[i] * (r.x() * v.y() - r.y() * v.x());
+    if (state.spins.size() > 0) sum += 0.5 * disks.mass[i] * disks.radius[i] * disks.radius[i] * state.spins[column];
+  }
+  return sum;
+}
+
+/// Energy that disks got from walls.
+inline double given_by_walls(const Totals& totals) {
+  double sum = 0.0;
+  for (const double taken : totals.wall_energy) sum -= taken;
+  return sum;
+}
+
 /// Of flight, spin, height and wells.
 inline double energy_of(const Simulation& simulation) {
   const Scene& scene = simulation.scene();

@@ -65,9 +65,4 @@ inline std::vector<Event> next_events(AnyEngine& engine, std::size_t count, cons
   return next_events(engine, count, until, stretch, [](AnyEngine&) {});
 }
 
-/// position + images * length
-inline Eigen::Matrix2Xd unwrapped(const Box& box, const State& state) {
-  return state.positions + (box.lengths().asDiagonal() * state.images.cast<double>());
-}
-
 }  // namespace carom::test

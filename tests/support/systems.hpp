@@ -168,4 +168,9 @@ inline System one_large_system(std::int64_t count, double packing_fraction, Boun
   return system_of(scene.box, placed);
 }
 
+/// position + images * length
+inline Eigen::Matrix2Xd unwrapped(const Box& box, const State& state) {
+  return state.positions + (box.lengths().asDiagonal() * state.images.cast<double>());
+}
+
 }  // namespace carom::test
