@@ -1,6 +1,7 @@
 #pragma once
 // How near a reversed run comes to where it was.
 
+#include "core/nearest_image.hpp"
 #include "json.hpp"
 #include "live/live_run.hpp"
 
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -79,10 +79,7 @@ class WayBack {
     const Box& box = run.simulation().scene().box;
     double largest = 0.0;
     for (Eigen::Index i = 0; i < state.positions.cols(); ++i) {
-      Eigen::Vector2d r = state.positions.col(i) - past_.back().positions.col(i);
-      for (int axis = 0; axis < 2; ++axis)
-        if (box.periodic(axis)) r[axis] -= std::round(r[axis] / box.lengths()[axis]) * box.lengths()[axis];
-      largest = std::max(largest, r.norm());
+      largest = std::max(largest, nearest_image(box, state.positions.col(i) - past_.back().positions.col(i)).norm());
     }
     distances_.push_back({run.time() - *mirror_, largest});
     past_.pop_back();

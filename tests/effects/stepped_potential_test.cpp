@@ -1,5 +1,6 @@
 // Pair potentials of several steps: [stepped_potential].
 
+#include "core/nearest_image.hpp"
 #include "observe/mechanics.hpp"
 #include "support/effect_scenes.hpp"
 
@@ -170,10 +171,9 @@ std::vector<std::uint64_t> pairs_by_distance(const Simulation& simulation) {
   std::vector<std::uint64_t> pairs(steps.size());
   for (std::size_t i = 0; i < simulation.disks().count(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
-      Eigen::Vector2d r = state.positions.col(static_cast<Eigen::Index>(i)) - state.positions.col(static_cast<Eigen::Index>(j));
-      for (int axis = 0; axis < 2; ++axis)
-        if (box.periodic(axis)) r[axis] = std::remainder(r[axis], box.lengths()[axis]);
-      const double ratio = r.norm() / (simulation.disks().radius[i] + simulation.disks().radius[j]);
+      const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(j);
+      const double ratio = nearest_image(box, state.positions.col(a) - state.positions.col(b)).norm() /
+                           (simulation.disks().radius[i] + simulation.disks().radius[j]);
       for (std::size_t k = 0; k < steps.size(); ++k)
         if (ratio < steps[k].width) {
           ++pairs[k];

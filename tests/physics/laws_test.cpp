@@ -1,5 +1,6 @@
 // Conservation laws and what each collision rule keeps, over 1e6 collisions.
 
+#include "core/nearest_image.hpp"
 #include "neighbours/disks_at_rest.hpp"
 #include "observe/mechanics.hpp"
 #include "support/engines.hpp"
@@ -123,9 +124,7 @@ double return_error(CollisionRule rule, double time) {
   const State end = back->state();
   double error = 0.0;
   for (Eigen::Index i = 0; i < 64; ++i) {
-    Eigen::Vector2d way = end.positions.col(i) - system.state.positions.col(i);
-    for (int a = 0; a < 2; ++a) way[a] -= system.box.lengths()[a] * std::round(way[a] / system.box.lengths()[a]);
-    error = std::max(error, way.norm());
+    error = std::max(error, nearest_image(system.box, end.positions.col(i) - system.state.positions.col(i)).norm());
   }
   return error;
 }

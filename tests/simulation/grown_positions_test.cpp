@@ -1,5 +1,6 @@
 // Dense starts: disks grown to their size, without overlap, order or trace of how they came there.
 
+#include "core/nearest_image.hpp"
 #include "neighbours/disks_at_rest.hpp"
 #include "scene/fixed_shapes.hpp"
 #include "simulation/start.hpp"
@@ -142,13 +143,11 @@ TEST(PhysicsDenseStart, HasNoOrder) {
   // fraction 0.6 is made of patches a few disks wide: of about N / 10 independent ones, so sqrt(10 / N) = 0.1; three times that.
   const Scene scene = dense(1000, 0.6, Boundary::periodic, Boundary::periodic);
   const Eigen::Matrix2Xd r = draw_start(scene).state.positions;
-  const Eigen::Vector2d length = scene.box.lengths();
   double c = 0.0, s = 0.0;
   int bonds = 0;
   for (Eigen::Index i = 0; i < r.cols(); ++i) {
     for (Eigen::Index j = 0; j < i; ++j) {
-      Eigen::Vector2d apart = r.col(i) - r.col(j);
-      for (int a = 0; a < 2; ++a) apart[a] -= length[a] * std::round(apart[a] / length[a]);
+      const Eigen::Vector2d apart = nearest_image(scene.box, r.col(i) - r.col(j));
       if (apart.norm() > 1.4) continue;
       const double angle = 6.0 * std::atan2(apart[1], apart[0]);
       c += std::cos(angle);

@@ -1,6 +1,7 @@
 // The tangent map against finite differences in 113 bits, and the exponent against its closed forms and known values.
 
 #include "studies/horizon/lyapunov.hpp"
+#include "core/nearest_image.hpp"
 #include "support/systems.hpp"
 
 #include <gmock/gmock.h>
@@ -32,9 +33,7 @@ Difference finite_difference(const Scene& scene, const State& start, const Diffe
   const State b = after(-1.0);
   Difference half(4, start.positions.cols());
   for (Eigen::Index i = 0; i < half.cols(); ++i) {
-    Eigen::Vector2d apart = a.positions.col(i) - b.positions.col(i);
-    for (int k = 0; k < 2; ++k)
-      if (scene.box.periodic(k)) apart[k] -= scene.box.lengths()[k] * std::round(apart[k] / scene.box.lengths()[k]);
+    const Eigen::Vector2d apart = nearest_image(scene.box, a.positions.col(i) - b.positions.col(i));
     half.col(i) << apart + a.remainders.col(i) - b.remainders.col(i), a.velocities.col(i) - b.velocities.col(i);
   }
   return half / 2.0;

@@ -7,6 +7,7 @@
 #include "studies/validate/speed_law.hpp"
 #include "support/child_process.hpp"
 #include "support/refusal.hpp"
+#include "support/scenes.hpp"
 #include "theory/goodness_of_fit.hpp"
 
 #include <gmock/gmock.h>
@@ -179,13 +180,7 @@ TEST(ValidationStart, ACompressedLiquidFillsItsBoxWithoutOverlap) {
   const State state = validation::compressed_liquid(disks, eta, {}, 3);
   ASSERT_EQ(state.positions.cols(), disks);
   const double side = std::sqrt(std::numbers::pi * disks / (4.0 * eta));
-  double nearest = side;
-  for (Eigen::Index i = 0; i < disks; ++i)
-    for (Eigen::Index j = 0; j < i; ++j) {
-      Eigen::Vector2d r = state.positions.col(i) - state.positions.col(j);
-      for (double& component : r) component -= side * std::round(component / side);
-      nearest = std::min(nearest, r.norm());
-    }
+  const double nearest = smallest_distance(box_of(side, side, Boundary::periodic), state.positions);
   EXPECT_GE(nearest, 1.0 - 1e-12);
   EXPECT_LT(nearest, 1.01) << "at this density some pair is about to touch";
   EXPECT_NEAR(state.velocities.rowwise().sum().norm(), 0.0, 1e-10);

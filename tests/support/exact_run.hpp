@@ -1,6 +1,8 @@
 #pragma once
 // Runs by exact events that fixed steps are held against.
 
+#include "core/nearest_image.hpp"
+
 #include <carom/scene.hpp>
 #include <carom/simulation.hpp>
 #include <carom/state.hpp>
@@ -45,9 +47,7 @@ inline ExactRun exact_run(const Scene& scene, const State& start, double end) {
       since = event->time;
     }
     if (event->partner >= 0) {
-      Eigen::Vector2d r = at.positions.col(event->disk) - at.positions.col(event->partner);
-      for (int axis = 0; axis < 2; ++axis)
-        if (scene.box.periodic(axis)) r[axis] -= scene.box.lengths()[axis] * std::round(r[axis] / scene.box.lengths()[axis]);
+      const Eigen::Vector2d r = nearest_image(scene.box, at.positions.col(event->disk) - at.positions.col(event->partner));
       const Eigen::Vector2d v = before.velocities.col(event->disk) - before.velocities.col(event->partner);
       run.line.shortest_overlap = std::min(run.line.shortest_overlap, -2.0 * r.dot(v) / v.squaredNorm());
     }
@@ -70,11 +70,7 @@ inline std::optional<double> backtrack_step(const ExactRun& exact, double end) {
 inline double rms_difference(const Scene& scene, const State& a, const State& b) {
   double sum = 0.0;
   for (Eigen::Index i = 0; i < a.positions.cols(); ++i)
-    for (int axis = 0; axis < 2; ++axis) {
-      double apart = a.positions(axis, i) - b.positions(axis, i);
-      if (scene.box.periodic(axis)) apart -= scene.box.lengths()[axis] * std::round(apart / scene.box.lengths()[axis]);
-      sum += apart * apart;
-    }
+    sum += nearest_image(scene.box, a.positions.col(i) - b.positions.col(i)).squaredNorm();
   return std::sqrt(sum / static_cast<double>(a.positions.cols()));
 }
 

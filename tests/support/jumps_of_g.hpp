@@ -1,6 +1,7 @@
 #pragma once
 // The jumps of g(r) at the edges of a pair potential, from pairs in narrow shells on either side of each edge.
 
+#include "core/nearest_image.hpp"
 #include "observe/mechanics.hpp"
 #include "support/block_means.hpp"
 
@@ -41,8 +42,7 @@ inline JumpsOfG jumps_of_g(const Scene& scene) {
     std::vector<std::array<double, 8>> counts(steps.size());
     for (Eigen::Index i = 0; i < disks; ++i)
       for (Eigen::Index j = 0; j < i; ++j) {
-        Eigen::Vector2d r = state.positions.col(i) - state.positions.col(j);
-        for (int a = 0; a < 2; ++a) r[a] -= scene.box.lengths()[a] * std::round(r[a] / scene.box.lengths()[a]);
+        const Eigen::Vector2d r = nearest_image(scene.box, state.positions.col(i) - state.positions.col(j));
         for (std::size_t edge = 0; edge < steps.size(); ++edge) {
           const double shell = (r.norm() - steps[edge].width) / width + 4.0;
           if (shell >= 0.0 && shell < 8.0) counts[edge][static_cast<std::size_t>(shell)] += 1.0 / r.norm();

@@ -1,6 +1,8 @@
 #pragma once
 // Scenes put together by hand, and what tests ask of states.
 
+#include "core/nearest_image.hpp"
+
 #include <carom/scene.hpp>
 #include <carom/state.hpp>
 
@@ -53,11 +55,7 @@ inline double smallest_distance(const Box& box, const Eigen::Matrix2Xd& position
   }
   for (Eigen::Index i = 0; i < positions.cols(); ++i) {
     for (Eigen::Index j = 0; j < i; ++j) {
-      Eigen::Vector2d apart = positions.col(i) - positions.col(j);
-      for (int a = 0; a < 2; ++a) {
-        if (box.periodic(a)) apart[a] -= box.lengths()[a] * std::round(apart[a] / box.lengths()[a]);
-      }
-      smallest = std::min(smallest, std::hypot(apart[0], apart[1]));
+      smallest = std::min(smallest, nearest_image(box, positions.col(i) - positions.col(j)).norm());
     }
   }
   return smallest;
