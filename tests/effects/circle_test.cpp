@@ -238,7 +238,7 @@ TEST(Circle, ItStaysWhereOtherEffectsChange) {
 TEST(Circle, FarFromTheOriginDisksAreInsideToTheRoundingOfTheirCoordinates) {
   Scene scene = gas_in_circle(10, 0.25);
   put_in_circle(scene.box, scene.effects, {{333333.3, -285714.2}, 4.0});
-  for (const char* engine : {"general", "textbook"}) {
+  for (const char* engine : engines_with_effects) {
     Simulation simulation = make_simulation(scene, engine);
     for (std::uint64_t events = 1; events <= 300; ++events) {
       simulation.run_until(1000.0, {.events = events});

@@ -2,20 +2,18 @@
 // many of them; speeds survive tumbles; both engines draw the same numbers; runs go on to the bit where they were saved.
 
 #include "support/scenes.hpp"
+#include "support/systems.hpp"
 
 #include <carom/simulation.hpp>
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <sstream>
 #include <string>
 
 namespace carom::test {
 namespace {
-
-constexpr std::array<const char*, 2> both_engines = {"general", "textbook"};
 
 /// Disks so small that none meets another in the time of these tests.
 Scene free_disks(std::int64_t count, Velocities velocities) {
@@ -108,7 +106,7 @@ TEST_P(Redraws, AreTheSameOnBothEngines) {
 }
 
 TEST_P(Redraws, GoOnWhereTheyWereSaved) {
-  for (const char* engine : both_engines) {
+  for (const char* engine : engines_with_effects) {
     Simulation whole = make_simulation(scene(), engine), first = make_simulation(scene(), engine);
     whole.run_until(3.0);
     first.run_until(1.37);

@@ -130,8 +130,8 @@ TEST(Growth, TellsWhatCollisionsTakeFromWhatSurfacesGive) {
   Scene scene = growing(scene_of(box_of(64.0, 64.0, Boundary::walls), {species_of(6, 0.5, 1.0, places, velocities)}), 0.25);
   scene.effects.collision.restitution = 0.5;
   constexpr double mu = 0.5, closing = 1.25, a = 0.25, e = 0.5;
-  for (const CollisionRule rule : {CollisionRule::specular, CollisionRule::reversal})
-    for (const char* engine : {"general", "textbook"}) {
+  for (const CollisionRule rule : both_rules)
+    for (const char* engine : engines_with_effects) {
       scene.effects.collision.rule = rule;
       Simulation simulation = make_simulation(scene, engine);
       ASSERT_EQ(simulation.run_until(10.0, {.collisions = 1}), StopReason::collisions);

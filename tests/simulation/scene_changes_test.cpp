@@ -28,8 +28,6 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr const char* both_engines[] = {"general", "textbook"};
-
 std::string gas(const std::string& more, const std::string& run = "time = 4.0") {
   return "[box]\nx = [0, 10]\ny = [0, 10]\nboundary = \"walls\"\n[[disks]]\nname = \"gas\"\ncount = 24\nradius = 0.4\n"
          "mass = 1\npositions = \"random\"\nvelocities = { temperature = 1 }\n[collision]\nrule = \"specular\"\n[run]\nseed = "
@@ -94,7 +92,7 @@ std::string hash_by_hand(const Scene& scene, const std::string& engine) {
 
 TEST(SceneChanges, AreWhatAProgramWouldDo) {
   const Scene scene = parse_scene(gas(some_changes));
-  for (const char* engine : both_engines) {
+  for (const char* engine : engines_with_effects) {
     Simulation simulation = make_simulation(scene, engine);
     const RunResult result = run_schedule(simulation);
     EXPECT_EQ(result.stopped, StopReason::time);
@@ -107,7 +105,7 @@ TEST(SceneChanges, AreWhatAProgramWouldDo) {
 
 TEST(SceneChanges, DoNotDependOnWhoRunsAndWhereItPauses) {
   const Scene scene = parse_scene(gas(some_changes));
-  for (const char* engine : both_engines) {
+  for (const char* engine : engines_with_effects) {
     const std::string twin = hash_by_hand(scene, engine);
     Simulation paused = make_simulation(scene, engine);
     for (int k = 1; k <= 40; ++k) paused.run_until(0.1 * k);
@@ -319,7 +317,7 @@ TEST(SceneChanges, LeaveACircularBoxAsItIs) {
   const Scene scene = parse_scene(round + "[[changes]]\ntime = 1.0\nset = [\"gravity.acceleration=[0, -1]\"]\n" +
                                   "[[changes]]\ntime = 2.0\nadd_obstacle = { arc = { centre = [0, 0], radius = 0.001, from = "
                                   "0, to = 180 } }\n");
-  for (const char* engine : both_engines) {
+  for (const char* engine : engines_with_effects) {
     Simulation simulation = make_simulation(scene, engine);
     const RunResult result = run_schedule(simulation);
     ASSERT_EQ(result.stopped, StopReason::time);

@@ -38,7 +38,7 @@ Scene growing_beyond_jamming() {
 }
 
 TEST(EnginesStandstill, DisksThatGrowBeyondJammingEndTheRunAndAreNamed) {
-  for (const char* engine : {"general", "textbook"}) {
+  for (const char* engine : engines_with_effects) {
     Simulation simulation = make_simulation(growing_beyond_jamming(), engine);
     const RunResult result = run_schedule(simulation);
     EXPECT_EQ(result.stopped, StopReason::jammed) << engine;
@@ -74,7 +74,7 @@ TEST(EnginesStandstill, ADiskThatGrowsUntilItMeetsItsOwnImageEndsTheRunThere) {
 }
 
 TEST(EnginesStandstill, ADiskThatGrowsFromWallToWallEndsTheRunThere) {
-  for (const char* engine : {"general", "textbook"}) {
+  for (const char* engine : engines_with_effects) {
     Scene scene = growing_in_a_channel(Boundary::walls);
     scene.box.boundary[0] = Boundary::walls;
     Simulation simulation = make_simulation(scene, engine);
@@ -97,7 +97,7 @@ TEST(EnginesStandstill, AStateOfDisksThatHaveFilledTheBoxIsAnEnd) {
 /// the next falls as its square, long before the last digits of coordinates end the run.
 TEST(EnginesStandstill, DisksThatGrowIntoAJamEndTheRunWhateverKeepsTheirEnergy) {
   for (const bool from_rest : {true, false}) {
-    for (const char* engine : {"general", "textbook"}) {
+    for (const char* engine : engines_with_effects) {
       Scene scene = growing_beyond_jamming();
       if (from_rest) scene.species.front().velocities = AtRest{};
       if (!from_rest) scene.effects.thermostat = Thermostat{1.0, 0.1};
@@ -109,7 +109,7 @@ TEST(EnginesStandstill, DisksThatGrowIntoAJamEndTheRunWhateverKeepsTheirEnergy) 
 }
 
 TEST(EnginesStandstill, WallsThatCloseInUntilNothingFitsEndTheRun) {
-  for (const char* engine : {"general", "textbook"}) {
+  for (const char* engine : engines_with_effects) {
     Scene scene = gas_scene(8, 0.2, Boundary::walls);
     scene.effects.walls[3].velocity = -0.5;
     scene.run.collisions = 1'000'000'000'000'000;
@@ -157,7 +157,7 @@ TEST(EnginesStandstill, DisksThatNeverLostAnythingHaveNotCooled) {
 }
 
 TEST(EnginesStandstill, AGasThatShearHeatsWithoutEndEndsTheRun) {
-  for (const char* engine : {"general", "textbook"}) {
+  for (const char* engine : engines_with_effects) {
     Scene scene = gas_scene(16, 0.4, Boundary::periodic);
     scene.effects.collision.rule = CollisionRule::reversal;
     scene.effects.shear = Shear{.rate = 1.0};

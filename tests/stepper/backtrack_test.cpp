@@ -39,7 +39,7 @@ Simulation backtrack(const Box& box, const std::vector<Placed>& disks, double dt
 }
 
 TEST(Backtrack, AHeadOnPairTurnsWhenItMeetsAndIsWhereItShouldBeAtTheStep) {
-  for (const CollisionRule rule : {CollisionRule::specular, CollisionRule::reversal}) {
+  for (const CollisionRule rule : both_rules) {
     // They meet at 1.5 between the steps 1.3125 and 1.75, at the places 7.5 and 8.5. All numbers are dyadic.
     Simulation s =
         backtrack(square_box(16.0, Boundary::walls), {{{6.0, 8.0}, {1.0, 0.0}}, {{10.0, 8.0}, {-1.0, 0.0}}}, 0.4375, rule);
@@ -124,7 +124,7 @@ TEST(Backtrack, DisksThatOverlapAtTheStartCollideThereIfTheyApproach) {
 
 TEST(Backtrack, HasTheEventsOfTheExactEngineWhileNoStepHoldsTwoOfADiskOrAGraze) {
   int compared = 0;
-  for (const CollisionRule rule : {CollisionRule::specular, CollisionRule::reversal})
+  for (const CollisionRule rule : both_rules)
     for (const Boundary boundary : {Boundary::walls, Boundary::periodic})
       for (std::uint64_t seed = 1; seed <= 8; ++seed) {
         Scene scene = mixture_scene(12, 0.3, boundary, seed);
@@ -169,7 +169,7 @@ struct Fluid {
 /// Holds a method against exact events in a fluid under both rules. Returns the smaller number of pair collisions.
 std::uint64_t expect_right_to_rounding(const std::string& method, const Fluid& fluid) {
   std::uint64_t fewest = std::numeric_limits<std::uint64_t>::max();
-  for (const CollisionRule rule : {CollisionRule::specular, CollisionRule::reversal}) {
+  for (const CollisionRule rule : both_rules) {
     Scene scene = gas_scene(256, fluid.packing_fraction, Boundary::periodic, 3);
     scene.effects.collision.rule = rule;
     Simulation run_up = make_simulation(scene);
@@ -275,7 +275,7 @@ TEST(Swept, FindsTheGrazeAtEveryStep) {
 }
 
 TEST(Swept, HasTheEventsOfTheExactEngineAtAnyStep) {
-  for (const CollisionRule rule : {CollisionRule::specular, CollisionRule::reversal})
+  for (const CollisionRule rule : both_rules)
     for (const Boundary boundary : {Boundary::walls, Boundary::periodic})
       for (std::uint64_t seed = 1; seed <= 4; ++seed) {
         Scene scene = mixture_scene(12, 0.3, boundary, seed);

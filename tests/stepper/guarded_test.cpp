@@ -16,7 +16,7 @@ namespace {
 TEST(Guarded, AHeadOnPairTurnsAtTheFirstStepInContactAndIsLateByJustThat) {
   Scene scene = scene_of(square_box(16.0, Boundary::walls), {species_of(2, 0.5, 1.0, ListedPositions{{{6.0, 8.0}, {10.0, 8.0}}},
                                                                         ListedVelocities{{{1.0, 0.0}, {-1.0, 0.0}}})});
-  for (const CollisionRule rule : {CollisionRule::specular, CollisionRule::reversal}) {
+  for (const CollisionRule rule : both_rules) {
     scene.effects.collision.rule = rule;
     for (const char* method : {"guarded", "grid"}) {
       // They meet at 1.5. With dt = 0.4375 the first step after that is at 1.75: a quarter late, half a length deep.
@@ -78,7 +78,7 @@ TEST(Guarded, PositionsConvergeWithTheFirstOrderOfDt) {
                          {species_of(5, 0.5, 1.0, ListedPositions{{{1.0, 1.1}, {3.0, 1.0}, {5.0, 1.3}, {1.5, 4.0}, {4.1, 4.3}}},
                                      ListedVelocities{{{1.0, 0.3}, {-0.7, 0.9}, {-0.4, -0.6}, {0.8, -0.5}, {-0.9, -0.2}}})});
   constexpr double end = 4.0;  // some collisions of every disk
-  for (const CollisionRule rule : {CollisionRule::specular, CollisionRule::reversal}) {
+  for (const CollisionRule rule : both_rules) {
     scene.effects.collision.rule = rule;
     Simulation quad = make_simulation(scene, "textbook-quad");
     quad.run_until(end);

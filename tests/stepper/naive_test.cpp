@@ -108,7 +108,7 @@ TEST(Naive, EarlierDisksHaveMovedWhenALaterOneLooks) {
 }
 
 TEST(Naive, CentreUponCentreHasNoDirectionAndNothingHappens) {
-  for (const CollisionRule rule : {CollisionRule::specular, CollisionRule::reversal}) {
+  for (const CollisionRule rule : both_rules) {
     Simulation s = naive({{{0.0, 0.0}, {0.0, 0.0}}, {{0.0, 0.0}, {0.0, 0.0}}}, 0.5, rule);
     s.run_until(4.0);
     EXPECT_TRUE(s.state().velocities.allFinite());
@@ -118,7 +118,7 @@ TEST(Naive, CentreUponCentreHasNoDirectionAndNothingHappens) {
 
 TEST(Naive, EnergyAndMomentumShowNothingOfAllThis) {
   Scene scene = mixture_scene(30, 0.5, Boundary::periodic);
-  for (const CollisionRule rule : {CollisionRule::specular, CollisionRule::reversal}) {
+  for (const CollisionRule rule : both_rules) {
     scene.effects.collision.rule = rule;
     Simulation s = make_simulation(scene, FixedStep{"naive", 0.05});
     const auto energy = [&] {

@@ -50,7 +50,7 @@ TEST(StepEffects, ADiskFallsOnItsParabolaWhateverTheMethod) {
 TEST(StepEffects, AnInelasticPairKeepsTheShareOfItsSpeedThatRestitutionSays) {
   // Masses 1 and 3 close with speed 4 and part with 1: the centre of mass moves at -2, and mu (16 - 1) / 2 is lost.
   const std::vector<Placed> pair = {{{6.0, 8.0}, {1.0, 0.0}, 0.5, 1.0}, {{8.0, 8.0}, {-3.0, 0.0}, 0.5, 3.0}};
-  for (const CollisionRule rule : {CollisionRule::specular, CollisionRule::reversal})
+  for (const CollisionRule rule : both_rules)
     for (const std::string& method : fixed_step_names()) {
       // Naive steps turn the pair again and again while it overlaps; a spring takes many.
       if (method == "naive" || method == "naive-edge" || method == "soft") continue;
@@ -115,7 +115,7 @@ Scene granular_scene(std::uint64_t seed, CollisionRule rule) {
 
 TEST(StepEffects, BacktrackAndSweptHaveTheEventsOfTheExactEngineWithBoth) {
   int backtracks = 0;
-  for (const CollisionRule rule : {CollisionRule::specular, CollisionRule::reversal})
+  for (const CollisionRule rule : both_rules)
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
       const Scene scene = granular_scene(seed, rule);
       const State start = make_simulation(scene).state();

@@ -7,16 +7,12 @@
 
 #include <carom/simulation.hpp>
 
-#include <array>
 #include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace carom::test {
-
-/// The two that compute in double precision and have every effect.
-inline constexpr std::array<const char*, 2> engines_with_effects = {"general", "textbook"};
 
 /// Disks placed one by one.
 inline Scene scene_of_placed(const Box& box, const std::vector<Placed>& disks) {

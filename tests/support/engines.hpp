@@ -15,8 +15,6 @@ namespace carom::test {
 
 using AnyEngine = detail::AnyEngine;
 
-inline constexpr CollisionRule both_rules[] = {CollisionRule::specular, CollisionRule::reversal};
-
 inline std::unique_ptr<AnyEngine> make_engine(const std::string& name, const System& system, const Effects& effects) {
   Scene scene;
   scene.box = system.box;

@@ -7,6 +7,7 @@
 #include <carom/scene.hpp>
 #include <carom/simulation.hpp>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
@@ -16,6 +17,11 @@
 #include <vector>
 
 namespace carom::test {
+
+inline constexpr CollisionRule both_rules[] = {CollisionRule::specular, CollisionRule::reversal};
+
+/// The two that compute in double precision and have every effect.
+inline constexpr std::array<const char*, 2> engines_with_effects = {"general", "textbook"};
 
 inline constexpr auto no_limit = std::numeric_limits<std::uint64_t>::max();
 
