@@ -38,16 +38,10 @@ class Resume : public ProgramTest {
   }
   [[nodiscard]] bool is_there(const std::string& name) const { return fs::exists(file(name)); }
 
-  /// The summary, without what tells of the clock on the wall.
-  [[nodiscard]] json summary(const std::string& directory) const {
-    json found = json::parse(text_of(file(directory) / "summary.json"));
-    for (const char* key : {"wall_seconds", "loop_seconds", "collisions_per_second", "command_line"}) found.erase(key);
-    return found;
-  }
   void expect_same_files(const std::string& a, const std::string& b) {
     for (const char* name : {"trajectory.xyz", "samples.csv"})
       EXPECT_TRUE(text_of(file(a) / name) == text_of(file(b) / name)) << name;
-    EXPECT_EQ(summary(a), summary(b));
+    EXPECT_EQ(results(a), results(b));
     EXPECT_TRUE(is_there(b + "/trajectory.h5md"));
     EXPECT_FALSE(is_there(b + "/trajectory.h5md.partial"));
   }
@@ -104,15 +98,15 @@ TEST_F(Resume, AFinishedRunIsExtended) {
   EXPECT_EQ(carom({"extend", "longer", "-q", "--collisions", "40000"}).exit_code, 0);
   for (const char* name : {"trajectory.xyz", "samples.csv"})
     EXPECT_TRUE(text_of(file("whole") / name) == text_of(file("longer") / name)) << name;
-  EXPECT_EQ(summary("whole")["energy"], summary("longer")["energy"]);
+  EXPECT_EQ(results("whole")["energy"], results("longer")["energy"]);
 }
 
 TEST_F(Resume, WhatCannotBeExtendedIsLeftAsItIs) {
   ASSERT_EQ(carom({"run", "gas.toml", "--out", "done", "-q", "--checkpoint-every", "1h"}).exit_code, 0);
-  const json before = summary("done");
+  const json before = results("done");
   const auto trajectory = text_of(file("done/trajectory.h5md"));
   const auto left_alone = [&] {
-    EXPECT_EQ(summary("done"), before);
+    EXPECT_EQ(results("done"), before);
     EXPECT_TRUE(text_of(file("done/trajectory.h5md")) == trajectory);
   };
   refused({"extend", "done", "--time", "1e300"}, "--time 1e+300: ");
