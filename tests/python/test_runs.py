@@ -269,26 +269,6 @@ def test_runs_side_by_side_have_the_bits_of_one_after_the_other(gas, tmp_path):
     assert together == alone and written == alone
 
 
-@pytest.mark.parametrize(
-    ("arguments", "sentence"),
-    [
-        ({"method": "naive", "dt": 0.01, "engine": "fast"}, "a fixed-step method has no engine"),
-        ({"dt": 0.01}, "dt is the step of a fixed-step method"),
-        ({"stiffness": 1e4}, 'a stiffness is that of the springs of method="soft"'),
-        ({"method": "nave", "dt": 0.01}, 'there is no fixed-step method "nave"'),
-        ({"engine": "slow"}, "slow"),
-        ({"method": "naive", "dt": 0.01, "observables": ["pressure"]}, "observables measure exact trajectories"),
-        ({"checkpoint_every": "10min"}, "checkpoints and reports are files"),
-        ({"observables": ["presure"]}, "presure"),
-        ({"walltime": "soon"}, "give a length of time such as 90s"),
-    ],
-)
-def test_wrong_arguments_are_refused_in_one_sentence(gas, arguments, sentence):
-    with pytest.raises(ValueError, match=sentence) as caught:
-        carom.run(gas, **arguments)
-    assert "\n" not in str(caught.value)
-
-
 def test_results_in_the_way_are_kept(tmp_path, gas):
     carom.run(gas, out=tmp_path / "run")
     before = (tmp_path / "run/summary.json").read_bytes()
@@ -368,12 +348,3 @@ def test_names_stay_where_pickles_of_earlier_versions_look_for_them():
     for module, names in {"runs": ("Run", "open_run"), "studies": ("Horizon", "LyapunovSpectrum", "horizon", "lyapunov_spectrum")}.items():
         for name in names:
             assert pickle.loads(f"ccarom.{module}\n{name}\n.".encode()) is getattr(carom, name)
-
-
-def test_import_starts_nothing():
-    code = (
-        "import sys, threading; import carom; "
-        "print([m for m in ('h5py', 'matplotlib', 'pandas', 'xarray', 'tqdm', 'carom._files', 'carom.runs', 'carom.stored_runs', 'carom.sweeps') if m in sys.modules], threading.active_count())"
-    )
-    shown = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
-    assert shown.strip() == "[] 1"

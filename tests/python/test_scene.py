@@ -143,6 +143,7 @@ def test_check_says_what_the_program_says(program) -> None:
 
 def test_import_brings_nothing_but_numpy() -> None:
     heavy = "h5py", "matplotlib", "pandas", "xarray", "tqdm", "MDAnalysis", "IPython", "concurrent.futures", "multiprocessing"
+    heavy += "carom._files", "carom.runs", "carom.stored_runs", "carom.sweeps"
     code = f"""
 import signal, sys, threading
 def handlers():

@@ -6,6 +6,7 @@ import gc
 import pickle
 import resource
 import threading
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
@@ -89,28 +90,6 @@ def test_a_run_on_several_threads_has_the_results_of_one() -> None:
     assert (three.frames.positions == one.frames.positions).all()
 
 
-def test_others_run_while_a_simulation_does_on_several_threads() -> None:
-    sim, told = carom.Simulation(many_disks(), threads=2), list[int]()
-    counted, done = 0, threading.Event()
-
-    def run() -> None:
-        with pytest.raises(StopIteration):
-            sim.run_until(1e6, progress=progress)
-
-    def progress(fraction: float) -> None:
-        told.append(counted)
-        if len(told) >= 5:
-            done.set()
-            raise StopIteration
-
-    thread = threading.Thread(target=run)
-    thread.start()
-    while not done.is_set() and counted < 10**9:
-        counted += 1
-    thread.join(30)
-    assert told == sorted(set(told)), "between any two reports the other thread has counted"
-
-
 def long_running() -> carom.Simulation:
     """Returns a simulation whose next unit of time takes a while."""
     return carom.Simulation(carom.Scene.preset("dense"), engine="textbook-quad")
@@ -160,9 +139,10 @@ def test_a_second_caller_is_refused_and_the_first_goes_on() -> None:
     assert sim.check_invariants() == [] and sim.time > 0
 
 
-def test_others_run_while_a_simulation_does() -> None:
-    """A thread that counts gets on although another one is in a single long call."""
-    sim, done = long_running(), threading.Event()
+@pytest.mark.parametrize("begin", [long_running, lambda: carom.Simulation(many_disks(), threads=2)], ids=["one", "several"])
+def test_others_run_while_a_simulation_does(begin: Callable[[], carom.Simulation]) -> None:
+    """A thread that counts gets on although another one is in a single long call, of one thread or of several."""
+    sim, done = begin(), threading.Event()
     counted, told = 0, list[int]()
 
     def progress(fraction: float) -> None:
