@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -12,6 +13,11 @@ import pytest
 import carom
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "tests/support"))
+
+PROGRAM = os.environ.get("CAROM_PROGRAM", "")
+
+needs_program = pytest.mark.skipif(not PROGRAM, reason="CAROM_PROGRAM names no program")
 
 #: Twelve disks that meet often, in a periodic box.
 GAS = {
@@ -30,11 +36,10 @@ def gas() -> carom.Scene:
 @pytest.fixture(scope="session")
 def program() -> Callable[..., subprocess.CompletedProcess[str]]:
     """Runs the program that the environment variable CAROM_PROGRAM names, with these arguments."""
-    path = os.environ.get("CAROM_PROGRAM", "")
-    if not path:
+    if not PROGRAM:
         pytest.fail("CAROM_PROGRAM does not say where the program is; ctest -L python does")
 
     def run(*arguments: object) -> subprocess.CompletedProcess[str]:
-        return subprocess.run([path, *map(str, arguments)], capture_output=True, text=True, timeout=120)
+        return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=120)
 
     return run

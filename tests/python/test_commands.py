@@ -6,18 +6,16 @@ are only handed to the parser, in an empty directory. Tutorials and sheets are r
 by tests/app/gallery_test.cpp.
 """
 
-import os
-import pathlib
 import re
 import shlex
 import subprocess
 
 import numpy
 import pytest
+from conftest import PROGRAM, ROOT
 
 import carom
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
 
 #: Commands that are not run: what they are, why not, and what tests them.
@@ -132,7 +130,7 @@ def place(tmp_path_factory):
     numpy.save(place / "mine.npy", samples.positions)
 
     def run(*words, timeout=120):
-        return subprocess.run([os.environ["CAROM_PROGRAM"], *words], cwd=place, capture_output=True, text=True, timeout=timeout)
+        return subprocess.run([PROGRAM, *words], cwd=place, capture_output=True, text=True, timeout=timeout)
 
     run("run", "docs/scenes/mixture.toml", "--events", "-q")
     return place, run
@@ -199,7 +197,7 @@ def said_to(words, place):
     if words not in SAID:
         place.mkdir()
         try:
-            ran = subprocess.run([os.environ["CAROM_PROGRAM"], *words], cwd=place, capture_output=True, text=True, timeout=1)
+            ran = subprocess.run([PROGRAM, *words], cwd=place, capture_output=True, text=True, timeout=1)
             SAID[words] = ran.stderr
         except subprocess.TimeoutExpired:  # it has taken the command, and is at work
             SAID[words] = ""

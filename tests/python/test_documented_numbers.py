@@ -1,18 +1,15 @@
 """Numbers that pages quote from a command with its seed: every machine gets the same bits, so the command still prints them."""
 
 import json
-import os
-import pathlib
 import re
 import subprocess
 
 import pytest
+from conftest import PROGRAM, ROOT, needs_program
 
-ROOT = pathlib.Path(__file__).parents[2]
 VALIDATION = (ROOT / "docs/validation.md").read_text()
-PROGRAM = os.environ.get("CAROM_PROGRAM")
 
-pytestmark = pytest.mark.skipif(PROGRAM is None, reason="CAROM_PROGRAM names no program")
+pytestmark = needs_program
 
 
 def summary_of(directory, scene, *overrides):

@@ -14,11 +14,11 @@ import threading
 import matplotlib
 import numpy
 import pytest
+from conftest import ROOT
 
 import carom
 
 matplotlib.use("Agg")
-ROOT = pathlib.Path(__file__).parents[2]
 MODULES = sorted(path.stem for path in pathlib.Path(carom.__file__).parent.glob("*.py") if ">>>" in path.read_text())
 
 

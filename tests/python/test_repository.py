@@ -1,14 +1,12 @@
 """What a host of repositories reads: the citation file, the forms for issues, the workflows; and the numbers of things that pages state."""
 
-import os
-import pathlib
 import re
 import subprocess
 
 import pytest
+from conftest import PROGRAM, ROOT
 
 yaml = pytest.importorskip("yaml", reason="PyYAML is not installed")
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def test_the_citation_names_the_version_of_the_build():
@@ -79,7 +77,7 @@ def test_pages_state_the_number_of_scenes_of_the_playground():
 
 
 def test_the_page_of_validation_lists_every_check_of_every_trial():
-    listed = subprocess.run([os.environ["CAROM_PROGRAM"], "validate", "--list"], capture_output=True, text=True, check=True).stdout
+    listed = subprocess.run([PROGRAM, "validate", "--list"], capture_output=True, text=True, check=True).stdout
     trials = [line for line in listed.splitlines() if line.startswith("  ") and "(--full)" not in line]
     page = (ROOT / "docs/validation.md").read_text()
     table = page.partition("## Every check of a quick validation")[2]

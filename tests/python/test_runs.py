@@ -2,21 +2,19 @@
 
 import json
 import os
-import pathlib
 import pickle
 import signal
 import subprocess
-import sys
 import threading
 
 import numpy as np
 import pytest
+from conftest import PROGRAM, ROOT, needs_program
+from run_files import NOT_COMPARED
 
 import carom
 
-ROOT = pathlib.Path(__file__).parents[2]
-PROGRAM = os.environ.get("CAROM_PROGRAM")
-CLOCKS = ("wall_seconds", "loop_seconds", "collisions_per_second", "cores", "command_line", "carom", "scene")
+CLOCKS = (*NOT_COMPARED, "carom", "scene")
 
 
 @pytest.fixture
@@ -26,9 +24,6 @@ def gas():
 
 def without_clocks(summary):
     return {key: value for key, value in summary.items() if key not in CLOCKS}
-
-
-needs_program = pytest.mark.skipif(PROGRAM is None, reason="CAROM_PROGRAM names no program to compare with")
 
 
 @needs_program

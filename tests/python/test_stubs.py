@@ -7,9 +7,10 @@ import re
 import subprocess
 import sys
 
+from conftest import ROOT
+
 import carom
 
-ROOT = pathlib.Path(__file__).parents[2]
 
 #: What nanobind makes unlike Python, by the sentence of stubtest.
 OF_NANOBIND = {

@@ -8,16 +8,15 @@ first line names.
 import contextlib
 import io
 import os
-import pathlib
 import re
 import subprocess
 
 import matplotlib
 import matplotlib.pyplot
 import pytest
+from conftest import PROGRAM, ROOT
 
 matplotlib.use("Agg")
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGES = sorted([*(ROOT / "docs/tutorials").glob("*.md"), *(ROOT / "docs/teach").glob("*.md")])
 
 
@@ -32,7 +31,7 @@ def shell(tmp_path):
     """Runs commands in the scratch directory, with `carom` on the path; they must end well."""
     programs = tmp_path.parent / f"{tmp_path.name}-programs"
     programs.mkdir()
-    (programs / "carom").symlink_to(os.environ["CAROM_PROGRAM"])
+    (programs / "carom").symlink_to(PROGRAM)
 
     def run(commands):
         ran = subprocess.run(["bash", "-euo", "pipefail", "-c", commands], cwd=tmp_path, capture_output=True, text=True, timeout=120,
