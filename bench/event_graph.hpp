@@ -34,16 +34,13 @@ class CriticalPath {
     for (const Id k : zone) before = std::max(before, depth_[index(k)]);
     depth_[index(i)] = depth_[index(j)] = before + 1;
     length_ = std::max(length_, before + 1);
-    ++events_;
   }
 
   [[nodiscard]] std::int64_t length() const { return length_; }
-  [[nodiscard]] std::int64_t events() const { return events_; }
 
  private:
   std::vector<std::int64_t> depth_;
   std::int64_t length_ = 0;
-  std::int64_t events_ = 0;
 };
 
 /// Counts, of each `size` events in turn, those that need none of the others: no two of them need each other.

@@ -86,32 +86,25 @@ inline std::string first_difference(const Effects& a, const Effects& b) {
 
 /// The name of the first field in which the scenes differ; empty where they are the same.
 inline std::string first_difference(const Scene& a, const Scene& b) {
-  const auto same = [](double x, double y) { return same_bits(x, y); };
-  const auto same_maybe = [](const std::optional<double>& x, const std::optional<double>& y) { return same_bits(x, y); };
-  const auto same_pair = [](const Eigen::Vector2d& x, const Eigen::Vector2d& y) { return same_bits(x, y); };
-  const auto same_list = [&](const auto& x, const auto& y, const auto& same_entry) {
-    if (x.size() != y.size()) return false;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      if (!same_entry(x[i], y[i])) return false;
-    }
-    return true;
+  const auto same_list = [](const auto& x, const auto& y) {
+    return std::ranges::equal(x, y, [](const auto& one, const auto& other) { return same_bits(one, other); });
   };
   if (a.title != b.title) return "title";
-  if (!same_pair(a.box.lower, b.box.lower) || !same_pair(a.box.upper, b.box.upper)) return "box limits";
+  if (!same_bits(a.box.lower, b.box.lower) || !same_bits(a.box.upper, b.box.upper)) return "box limits";
   if (a.box.boundary != b.box.boundary) return "box.boundary";
   if (const std::string difference = first_difference(a.effects, b.effects); !difference.empty()) return difference;
-  if (!same_maybe(a.run.time, b.run.time)) return "run.time";
+  if (!same_bits(a.run.time, b.run.time)) return "run.time";
   if (a.run.collisions != b.run.collisions) return "run.collisions";
-  if (!same_maybe(a.run.sample_every, b.run.sample_every)) return "run.sample_every";
+  if (!same_bits(a.run.sample_every, b.run.sample_every)) return "run.sample_every";
   if (a.run.sample_every_collisions != b.run.sample_every_collisions) return "run.sample_every's collisions";
   if (a.run.sample_log.has_value() != b.run.sample_log.has_value()) return "run.sample_log";
   if (a.run.sample_log &&
-      (!same(a.run.sample_log->base, b.run.sample_log->base) || a.run.sample_log->per_block != b.run.sample_log->per_block ||
-       !same(a.run.sample_log->block, b.run.sample_log->block)))
+      (!same_bits(a.run.sample_log->base, b.run.sample_log->base) || a.run.sample_log->per_block != b.run.sample_log->per_block ||
+       !same_bits(a.run.sample_log->block, b.run.sample_log->block)))
     return "run.sample_log's value";
   if (a.run.equilibrate.has_value() != b.run.equilibrate.has_value()) return "run.equilibrate";
-  if (a.run.equilibrate && (!same_maybe(a.run.equilibrate->time, b.run.equilibrate->time) ||
-                            !same_maybe(a.run.equilibrate->collisions_per_disk, b.run.equilibrate->collisions_per_disk))) {
+  if (a.run.equilibrate && (!same_bits(a.run.equilibrate->time, b.run.equilibrate->time) ||
+                            !same_bits(a.run.equilibrate->collisions_per_disk, b.run.equilibrate->collisions_per_disk))) {
     return "run.equilibrate's value";
   }
   if (a.run.seed != b.run.seed || a.run.keep_momentum != b.run.keep_momentum) return "run.seed or run.keep_momentum";
@@ -123,9 +116,9 @@ inline std::string first_difference(const Scene& a, const Scene& b) {
   if (a.observe.size() != b.observe.size()) return "number of observables";
   for (std::size_t k = 0; k < a.observe.size(); ++k) {
     const ObservableRequest &x = a.observe[k], &y = b.observe[k];
-    if (x.name != y.name || !same_maybe(x.every, y.every) || x.bins != y.bins || !same_maybe(x.range, y.range) ||
-        !same_maybe(x.largest, y.largest) || x.axis != y.axis || x.disks != y.disks || x.cells != y.cells ||
-        !same_list(x.wave_numbers, y.wave_numbers, same)) {
+    if (x.name != y.name || !same_bits(x.every, y.every) || x.bins != y.bins || !same_bits(x.range, y.range) ||
+        !same_bits(x.largest, y.largest) || x.axis != y.axis || x.disks != y.disks || x.cells != y.cells ||
+        !same_list(x.wave_numbers, y.wave_numbers)) {
       return "observe." + x.name;
     }
   }
@@ -137,8 +130,8 @@ inline std::string first_difference(const Scene& a, const Scene& b) {
     const Species &x = a.species[s], &y = b.species[s];
     const std::string at = "disks." + std::to_string(s);
     if (x.name != y.name || x.count != y.count) return at + " name or count";
-    if (!same(x.radius, y.radius) || !same_list(x.radii, y.radii, same)) return at + " radius";
-    if (!same(x.mass, y.mass) || !same_list(x.masses, y.masses, same)) return at + " mass";
+    if (!same_bits(x.radius, y.radius) || !same_list(x.radii, y.radii)) return at + " radius";
+    if (!same_bits(x.mass, y.mass) || !same_list(x.masses, y.masses)) return at + " mass";
     if (x.positions.index() != y.positions.index()) return at + " kind of positions";
     if (const auto* random = std::get_if<RandomPositions>(&x.positions)) {
       const auto& other = std::get<RandomPositions>(y.positions).region;
@@ -146,21 +139,22 @@ inline std::string first_difference(const Scene& a, const Scene& b) {
       if (other && random->region->index() != other->index()) return at + " kind of region";
       if (other && std::holds_alternative<CircleRegion>(*other)) {
         const auto &mine = std::get<CircleRegion>(*random->region), &its = std::get<CircleRegion>(*other);
-        if (!same_pair(mine.centre, its.centre) || !same(mine.radius, its.radius)) return at + " circle";
+        if (!same_bits(mine.centre, its.centre) || !same_bits(mine.radius, its.radius)) return at + " circle";
       } else if (other) {
         const auto &mine = std::get<RectangleRegion>(*random->region), &its = std::get<RectangleRegion>(*other);
-        if (!same_pair(mine.lower, its.lower) || !same_pair(mine.upper, its.upper)) return at + " rectangle";
+        if (!same_bits(mine.lower, its.lower) || !same_bits(mine.upper, its.upper)) return at + " rectangle";
       }
     }
     if (const auto* list = std::get_if<ListedPositions>(&x.positions)) {
-      if (!same_list(list->values, std::get<ListedPositions>(y.positions).values, same_pair)) return at + " positions";
+      if (!same_list(list->values, std::get<ListedPositions>(y.positions).values)) return at + " positions";
     }
     if (const auto* file = std::get_if<FilePositions>(&x.positions)) {
       const auto& other = std::get<FilePositions>(y.positions);
-      if (file->path != other.path || !same_list(file->values, other.values, same_pair)) return at + " start file";
+      if (file->path != other.path || !same_list(file->values, other.values)) return at + " start file";
     }
     if (const auto* grown = std::get_if<GrownPositions>(&x.positions)) {
-      if (!same(grown->packing_fraction, std::get<GrownPositions>(y.positions).packing_fraction)) return at + " packing fraction";
+      if (!same_bits(grown->packing_fraction, std::get<GrownPositions>(y.positions).packing_fraction))
+        return at + " packing fraction";
     }
     if (x.velocities.index() != y.velocities.index()) return at + " kind of velocities";
     const bool same_velocities = std::visit(
@@ -168,15 +162,15 @@ inline std::string first_difference(const Scene& a, const Scene& b) {
           using Law = std::decay_t<decltype(law)>;
           const auto& other = std::get<Law>(y.velocities);
           if constexpr (std::is_same_v<Law, UniformVelocities>)
-            return same(law.maximum, other.maximum);
+            return same_bits(law.maximum, other.maximum);
           else if constexpr (std::is_same_v<Law, MaxwellVelocities>)
-            return same(law.temperature, other.temperature);
+            return same_bits(law.temperature, other.temperature);
           else if constexpr (std::is_same_v<Law, FixedSpeed>)
-            return same(law.speed, other.speed);
+            return same_bits(law.speed, other.speed);
           else if constexpr (std::is_same_v<Law, AtRest>)
             return true;
           else
-            return same_list(law.values, other.values, same_pair);
+            return same_list(law.values, other.values);
         },
         x.velocities);
     if (!same_velocities) return at + " velocities";

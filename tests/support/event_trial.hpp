@@ -27,14 +27,13 @@ class Events {
   [[nodiscard]] bool precedes(const FutureEvent& a, const FutureEvent& b) const { return a.other < b.other; }
 
   void set(std::int32_t disk, double time, std::int32_t rank) { events_[static_cast<std::size_t>(disk)] = {time, rank}; }
-  [[nodiscard]] std::int32_t rank(std::int32_t disk) const { return at(disk).rank; }
   [[nodiscard]] std::int32_t count() const { return static_cast<std::int32_t>(events_.size()); }
 
   /// -1 where nothing is to come.
   [[nodiscard]] std::int32_t earliest() const {
     std::int32_t first = -1;
     for (std::int32_t i = 0; i < count(); ++i)
-      if (time(i) < infinity<double> && (first < 0 || std::tuple(time(i), rank(i)) < std::tuple(time(first), rank(first))))
+      if (time(i) < infinity<double> && (first < 0 || std::tuple(time(i), other(i)) < std::tuple(time(first), other(first))))
         first = i;
     return first;
   }
@@ -107,7 +106,7 @@ void expect_as_twin(const Trial& trial, std::uint64_t seed, List&& list) {
       continue;
     }
     ASSERT_EQ(next.time, events.time(expected)) << "event " << k;
-    ASSERT_EQ(events.rank(next.disk), events.rank(expected)) << "event " << k << " at time " << next.time;
+    ASSERT_EQ(events.other(next.disk), events.other(expected)) << "event " << k << " at time " << next.time;
     ASSERT_EQ(next.disk, list.next(events).disk) << "asked again";
     const std::int32_t other = below(random, trial.disks);
     if (trial.partners > 0 && other != next.disk && unit(random) < 0.5) {
