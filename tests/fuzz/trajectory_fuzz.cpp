@@ -2,23 +2,20 @@
 // Not as an HDF5 file: HDF5 1.10 itself leaks memory over some damaged files, and over others it never comes to an end.
 
 #include "app/info.hpp"
+#include "support/temporary_directory.hpp"
 
 #include <carom/scene.hpp>
 
-#include <unistd.h>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <string>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   // The first byte says what the file is called.
   constexpr const char* names[] = {"summary.json", "trajectory.xyz", "samples.csv"};
-  static const std::filesystem::path directory =
-      std::filesystem::temp_directory_path() / ("carom_fuzz_" + std::to_string(getpid()));
-  std::filesystem::create_directories(directory);
-  const std::filesystem::path file = directory / names[data[0] % 3];
+  static const carom::test::TemporaryDirectory directory;
+  const std::filesystem::path file = directory.path() / names[data[0] % 3];
   std::ofstream(file, std::ios::binary).write(reinterpret_cast<const char*>(data + 1), static_cast<std::streamsize>(size - 1));
   try {
     (void)carom::describe_file(file);
