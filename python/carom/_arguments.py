@@ -53,6 +53,14 @@ def words(value: Any, name: str) -> str:
     return value
 
 
+def require_steps_that_fit(method: Any, engine: Any, stiffness: Any) -> None:
+    """Raises ValueError where a method of fixed steps has an engine, or springs have none."""
+    if method is not None and engine != "auto":
+        raise ValueError("a fixed-step method has no engine; leave out one of the two")
+    if method is None and stiffness is not None:
+        raise ValueError('a stiffness is that of the springs of method="soft"; exact events have none')
+
+
 def path_text(value: Any, name: str) -> str:
     """Returns a path as a string. Raises TypeError for what is none."""
     try:

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from carom import _core
-from carom._arguments import path_text, real, shown, whole, words
+from carom._arguments import path_text, real, require_steps_that_fit, shown, whole, words
 from carom._errors import Interrupted, OutputError
 from carom._hdf5 import hdf5
 from carom._measured import measurements_of
@@ -235,11 +235,8 @@ def run(
     given, own = _with_observables(given, observables)
     if method is None and dt is not None:
         raise ValueError("dt is the step of a fixed-step method; exact events need none: leave it out, or give a method")
-    if method is None and stiffness is not None:
-        raise ValueError("a stiffness is that of the springs of method=\"soft\"; exact events have none")
+    require_steps_that_fit(method, engine, stiffness)
     if method is not None:
-        if engine != "auto":
-            raise ValueError("a fixed-step method has no engine; leave out one of the two")
         if own or given._core.observables:
             raise ValueError(f'method="{method}": observables measure exact trajectories; leave out one of the two')
         dt = real(dt, "dt") if dt is not None else given._core.sample_every

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from carom import _core
-from carom._arguments import numbers, pairs, path_text, real, shown, whole, words
+from carom._arguments import numbers, pairs, path_text, real, require_steps_that_fit, shown, whole, words
 from carom._errors import OutputError, SceneError, StoppedEarly
 from carom._events import Event, events_in
 from carom._frame_memory import FrameMemory
@@ -123,10 +123,7 @@ class Simulation:
             given = given.set({"run.seed": seed})
         if (method is None) != (dt is None):
             raise ValueError("a fixed-step method needs both: method=\"naive\" and its step dt=0.001")
-        if method is not None and engine != "auto":
-            raise ValueError("a fixed-step method has no engine; leave out one of the two")
-        if method is None and stiffness is not None:
-            raise ValueError("a stiffness is that of the springs of method=\"soft\"; exact events have none")
+        require_steps_that_fit(method, engine, stiffness)
         if state is not None and not isinstance(state, State):
             raise TypeError(f"the state is {shown(state)}; give a carom.State")
         name = None if method is None else words(method, "method")
