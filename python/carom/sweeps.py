@@ -10,7 +10,7 @@ import os
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from os import PathLike
 from typing import TYPE_CHECKING, Any, Union
 
@@ -185,15 +185,14 @@ def sweep(
     if workers is not None:
         workers = _arguments.whole(workers, "workers", 1)
 
+    in_tables = tuple(name for name in numbers or () if "@" in name)
     settings = {"engine": engine, "method": method, "dt": step, "stiffness": spring, "observables": own}
     orders = [
-        _Order(at, seed, tuple(value_text(point.get(key), key) if key in point else "" for key in keys), point_scene, settings)
+        _Order(at, seed, tuple(value_text(point.get(key), key) if key in point else "" for key in keys), point_scene, settings, in_tables)
         for at, (point, point_scene) in enumerate(zip(values, scenes, strict=True))
         for seed in seed_list
     ]
     found: dict[tuple[int, int], _Found] = {}
-    in_tables = [name for name in numbers or () if "@" in name]
-    orders = [replace(order, in_tables=tuple(in_tables)) for order in orders]
     with _kept(out, base, full, settings, orders) as kept, reporting(progress, "sweep") as report_fraction:
         for order in orders:
             earlier = None if kept is None else kept.find(order.name(full))
@@ -244,7 +243,7 @@ class _Order:
     values: tuple[str, ...]  #: of the keys, in TOML; empty where the scene's own stays
     scene: Scene
     settings: dict[str, Any]  #: arguments of carom.run()
-    in_tables: tuple[str, ...] = ()  #: the numbers that come from tables of observables
+    in_tables: tuple[str, ...]  #: the numbers that come from tables of observables
 
     def name(self, keys: Sequence[str]) -> dict[str, Any]:
         """What tells this run from the others of the sweep."""
