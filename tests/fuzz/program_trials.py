@@ -693,10 +693,6 @@ def box_limits(file):
 
 def nudge(trial, scene, start, by, edges, options):
     """The same scene from a start whose coordinates are some roundings off, each by another amount; None where such a start is refused."""
-    from drawn_scene import Scene
-
-    other = scene.copy()
-    other.units = (0, 0, 0)
     places = start.start["position"]
     with h5py.File(trial.main / "trajectory.h5md") as file:
         limits = box_limits(file)
@@ -709,7 +705,7 @@ def nudge(trial, scene, start, by, edges, options):
     rows = np.column_stack([moved, start.start["velocity"], start.radius, start.mass])
     name = f"nudged{'+' if by > 0 else '-'}"
     files = {f"{name}{kind}.csv": rows[start.species == kind] for kind in range(len(scene.tables["disks"]))}
-    other = rewritten(scene, trial)
+    other = rewritten(scene)
     if "circle" not in other.tables["box"]:
         other.tables["box"] = {"x": limits[0], "y": limits[1], "boundary": scene.tables["box"]["boundary"]}
     other.tables["disks"] = [{"positions": {"file": file}} for file in files]
@@ -719,7 +715,7 @@ def nudge(trial, scene, start, by, edges, options):
     return Log(out) if (out / "summary.json").exists() else None
 
 
-def rewritten(scene, trial):
+def rewritten(scene):
     """The scene with plain numbers, so that others can stand beside them."""
     from drawn_scene import Quantity
 
