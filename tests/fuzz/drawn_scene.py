@@ -3,10 +3,10 @@
 Most are drawn so that they should run; a bold one in seven holds a hostile number, or combines what cannot be combined.
 """
 
-import copy
-import json
 import math
 import random
+
+from scene_text import Overrides, Quantity, Scene, acceleration, energy, length, load, mass, rate, speed, time
 
 FORBIDDEN = {
     "shear": {"gravity", "obstacles", "growth", "square_well", "stepped_potential", "drag", "tumbling"},
@@ -28,146 +28,6 @@ HOSTILE = (
     0, -1, 0.0, -0.0, -1.0, 1, 1.0, 2.0, 0.5, 1e-9, 1e-30, 1e-100, 1e-160, 1e-200, 1e-300, 5e-324, 1e9, 1e30, 1e100, 1e140, 1e160, 1e200, 1e308,
     1.7976931348623157e308, 1.0 + 2.0**-52, 1.0 - 2.0**-53, math.nan, math.inf, -math.inf, 2**31, 2**53, 2**63 - 1, "1.0", "", True, [], [1.0], {},
 )
-
-
-class Quantity(float):
-    """A number and how it goes with the units of length, time and mass."""
-
-    def __new__(cls, value, length=0, time=0, mass=0):
-        self = float.__new__(cls, value)
-        self.powers = (length, time, mass)
-        return self
-
-    def __deepcopy__(self, _):
-        return self
-
-    def like(self, value):
-        return Quantity(value, *self.powers)
-
-    def in_units(self, exponents):
-        """The same quantity where units are smaller by these powers of two."""
-        try:
-            return math.ldexp(float(self), sum(p * e for p, e in zip(self.powers, exponents)))
-        except OverflowError:
-            return math.inf
-
-
-def length(value):
-    return Quantity(value, length=1)
-
-
-def time(value):
-    return Quantity(value, time=1)
-
-
-def mass(value):
-    return Quantity(value, mass=1)
-
-
-def speed(value):
-    return Quantity(value, length=1, time=-1)
-
-
-def rate(value):
-    return Quantity(value, time=-1)
-
-
-def acceleration(value):
-    return Quantity(value, length=1, time=-2)
-
-
-def energy(value):
-    return Quantity(value, length=2, time=-2, mass=1)
-
-
-def load(value):
-    return Quantity(value, time=-2, mass=1)
-
-
-class Overrides(dict):
-    """Keys with dots and their new values, which a change has as texts."""
-
-
-def toml(value, units):
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, Quantity):
-        return repr(value.in_units(units))
-    if isinstance(value, (int, float)):
-        return repr(value)
-    if isinstance(value, str):
-        return json.dumps(value)
-    if isinstance(value, Overrides):
-        return toml([f"{key}={toml(item, units)}" for key, item in value.items()], units)
-    if isinstance(value, list):
-        return "[" + ", ".join(toml(item, units) for item in value) + "]"
-    return "{ " + ", ".join(f"{key} = {toml(item, units)}" for key, item in value.items()) + " }"
-
-
-class Scene:
-    """The tables of a scene file, its start files, and the units in which they are written."""
-
-    def __init__(self):
-        self.tables = {}
-        self.start_files = {}  # name: (columns, rows)
-        self.units = (0, 0, 0)
-        self.bold = False
-
-    def copy(self):
-        return copy.deepcopy(self)
-
-    def text(self):
-        lines = []
-        for name, table in self.tables.items():
-            for one in table if isinstance(table, list) else [table]:
-                lines.append(f"[[{name}]]" if isinstance(table, list) else f"[{name}]")
-                lines += [f"{key} = {toml(value, self.units)}" for key, value in one.items()]
-        empty = [f"{name} = []\n" for name in ("disks",) if not self.tables.get(name)]
-        return "".join(empty) + "\n".join(lines) + "\n"
-
-    def write(self, path):
-        path.write_text(self.text())
-        for name, (columns, rows) in self.start_files.items():
-            lines = [",".join(columns)] + [",".join(toml(number, self.units) for number in row) for row in rows]
-            (path.parent / name).write_text("\n".join(lines) + "\n")
-
-    def table(self, name):
-        return self.tables.get(name, {})
-
-    def number(self, value):
-        """A number of a table as the scene file has it."""
-        return value.in_units(self.units) if isinstance(value, Quantity) else value
-
-    def without(self, *names):
-        other = self.copy()
-        for name in names:
-            table, _, key = name.partition(".")
-            if key:
-                other.tables.get(table, {}).pop(key, None)
-            else:
-                other.tables.pop(table, None)
-        return other
-
-    def stages(self):
-        """The tables as the run begins, and after each change; obstacles that are removed are still there."""
-        now = self.tables
-        yield now
-        for change in now.get("changes", []):
-            now = copy.deepcopy(now)
-            for key, value in change.get("set", {}).items():
-                *path, last = key.split(".")
-                table = now
-                for name in path:
-                    table = table.setdefault(name, {})
-                table[last] = value
-            if "add_obstacle" in change:
-                now.setdefault("obstacles", []).append(change["add_obstacle"])
-            yield now
-
-    def set(self, table, **keys):
-        other = self.copy()
-        other.tables.setdefault(table, {}).update(keys)
-        return other
 
 
 def draw(seed, number):
@@ -663,48 +523,3 @@ def make_hostile(r, scene):
             value = r.choice(HOSTILE)
             keep_units = isinstance(old, Quantity) and type(value) is float and r.random() < 0.5
             node[path[-1]] = old.like(value) if keep_units else value
-
-
-def keep(one, part):
-    """Leaves only these disks of a species in its lists."""
-    for table in (one, one["radius"] if isinstance(one.get("radius"), dict) else {}):
-        for key in ("positions", "velocities", "list"):
-            if isinstance(table.get(key), list):
-                table[key] = table[key][part]
-
-
-def smaller(scene):
-    """Scenes with one thing less each, the largest steps first."""
-    for name in [name for name in scene.tables if name not in ("box", "disks", "collision", "run")]:
-        yield scene.without(name)
-    for name in ("observe", "walls", "output", "collision", "run"):
-        for key in list(scene.table(name)):
-            if not (name == "collision" and key == "rule"):
-                yield scene.without(f"{name}.{key}")
-    for name in ("disks", "obstacles", "changes"):
-        for k in range(len(scene.tables.get(name, [])) if len(scene.tables.get(name, [])) > 1 else 0):
-            other = scene.copy()
-            del other.tables[name][k]
-            yield other
-    for k, one in enumerate(scene.tables.get("disks", [])):
-        if isinstance(one.get("positions"), list):
-            for part in (slice(None, None, 2), slice(1, None, 2), slice(1, None), slice(None, -1)):
-                other = scene.copy()
-                keep(other.tables["disks"][k], part)
-                yield other
-        elif isinstance(one.get("count"), int) and one["count"] > 1:
-            for count in (one["count"] // 2, one["count"] - 1):
-                other = scene.copy()
-                other.tables["disks"][k]["count"] = count
-                keep(other.tables["disks"][k], slice(count))
-                yield other
-    for key in ("time", "collisions"):
-        value = scene.table("run").get(key)
-        if isinstance(value, Quantity):
-            yield scene.set("run", **{key: value.like(value / 2)})
-        elif isinstance(value, int) and value > 1:
-            yield scene.set("run", **{key: value // 2})
-    if scene.units != (0, 0, 0):
-        other = scene.copy()
-        other.units = (0, 0, 0)
-        yield other

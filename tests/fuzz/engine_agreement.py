@@ -6,9 +6,9 @@ import re
 import h5py
 import numpy as np
 
-from drawn_scene import Quantity
 from program_trials import WALLTIME, Failed, Skipped, summary_of
 from run_checks import EPSILON, pull_of
+from scene_text import Quantity
 
 
 class Log:
