@@ -313,5 +313,15 @@ TEST(Cooling, OfGrowingDisksLeavesTheEnergyInTheirMotionAgainstEachOther) {
   }
 }
 
+TEST(InelasticRun, ThatComesToAStandIsCollapsed) {
+  // Two disks that fill the way from wall to wall: elastic ones are jammed (StartRefusals), these lose a little each time.
+  Scene scene = scene_of(box_of(2.0, 1.5, Boundary::walls), {species_of(2, 0.5, 1.0, ListedPositions{{{0.5, 0.75}, {1.5, 0.75}}},
+                                                                        ListedVelocities{{{1.0, 0.0}, {0.0, 0.0}}})});
+  scene.effects.collision.restitution = 0.9999;
+  Simulation simulation = make_simulation(scene);
+  EXPECT_EQ(simulation.run_until(1.0), StopReason::collapsed);
+  EXPECT_EQ(simulation.time(), 0.0);
+}
+
 }  // namespace
 }  // namespace carom::test

@@ -187,16 +187,6 @@ TEST(Growth, IsNotEquilibrated) {
   EXPECT_NE(refusal<SceneError>([&] { (void)make_simulation(scene); }), "");
 }
 
-TEST(InelasticRun, ThatComesToAStandIsCollapsed) {
-  // Two disks that fill the way from wall to wall: elastic ones are jammed (StartRefusals), these lose a little each time.
-  Scene scene = scene_of(box_of(2.0, 1.5, Boundary::walls), {species_of(2, 0.5, 1.0, ListedPositions{{{0.5, 0.75}, {1.5, 0.75}}},
-                                                                        ListedVelocities{{{1.0, 0.0}, {0.0, 0.0}}})});
-  scene.effects.collision.restitution = 0.9999;
-  Simulation simulation = make_simulation(scene);
-  EXPECT_EQ(simulation.run_until(1.0), StopReason::collapsed);
-  EXPECT_EQ(simulation.time(), 0.0);
-}
-
 TEST(PhysicsGrowth, StopsAtThePressureAskedFor) {
   const double asked = 4.0 * 0.5 / std::numbers::pi * theory::kolafa_rottner(0.5);
   const Scene scene = growing(gas_scene(64, 0.3, Boundary::periodic), 2e-4, {}, asked);
