@@ -5,10 +5,9 @@
 #include "effects/reversal.hpp"
 #include "effects/specular.hpp"
 #include "stepper/any_disks.hpp"
+#include "stepper/contact_twins.hpp"
 #include "stepper/stepper.hpp"
-#include "stepper/swept.hpp"
 #include "support/exact_run.hpp"
-#include "support/refusal.hpp"
 #include "support/scenes.hpp"
 #include "support/systems.hpp"
 
@@ -20,8 +19,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -161,83 +158,10 @@ TEST(Backtrack, GoesWrongBeyondTheLine) {
   EXPECT_GT(wrong, 0);
 }
 
-/// A fluid of 256 disks after 50 collisions per disk, followed with that step.
-struct Fluid {
-  double packing_fraction, end, dt;
-};
-
-/// Holds a method against exact events in a fluid under both rules. Returns the smaller number of pair collisions.
-std::uint64_t expect_right_to_rounding(const std::string& method, const Fluid& fluid) {
-  std::uint64_t fewest = std::numeric_limits<std::uint64_t>::max();
-  for (const CollisionRule rule : both_rules) {
-    Scene scene = gas_scene(256, fluid.packing_fraction, Boundary::periodic, 3);
-    scene.effects.collision.rule = rule;
-    Simulation run_up = make_simulation(scene);
-    run_up.run_until(1e300, {.collisions = 25 * 256});
-    run_up.run_until(run_up.time() + 1e-6);
-    const State start = run_up.state();
-    Simulation exact = make_simulation(scene, start, "textbook-long-double");
-    exact.run_until(fluid.end);
-    Simulation s = make_simulation(scene, start, FixedStep{method, fluid.dt});
-    s.run_until(fluid.end);
-    EXPECT_EQ(s.totals().pair, exact.totals().pair) << fluid.packing_fraction;
-    EXPECT_LT(rms_difference(scene, s.state(), exact.state()), 1e-13) << fluid.packing_fraction;
-    fewest = std::min(fewest, s.totals().pair);
-  }
-  return fewest;
-}
-
 TEST(Backtrack, IsRightToRoundingFor256Disks) {
   // Followed for 0.35, 1.9 and 4.8 mean free times, with steps of 0.02, 0.2 and 0.2 of one.
   for (const Fluid& fluid : {Fluid{0.05, 1.44, 0.08}, Fluid{0.4, 0.46, 0.046}, Fluid{0.7, 0.24, 0.0096}})
     EXPECT_GT(expect_right_to_rounding("backtrack", fluid), 20U);
-}
-
-/// All pairs, one by one, in the place of the list.
-class EveryPair {
- public:
-  EveryPair(const Bodies& bodies, double /*dt*/, double /*least_margin*/) : radius_(bodies.radius) {}
-
-  [[nodiscard]] static double work(double disks) { return disks * disks / 2; }
-  void moved(const Bodies& /*bodies*/, double /*time*/) {}
-  void about_to_move(const Bodies& /*bodies*/, double /*time*/, double /*fastest*/) {}
-  [[nodiscard]] static bool strayed(const Bodies& /*bodies*/, std::size_t /*i*/) { return false; }
-  [[nodiscard]] static std::size_t bytes() { return 0; }
-  template <class Look>
-  void for_pairs(Look look) const {
-    for (std::uint32_t i = 0; i < radius_.size(); ++i)
-      for (std::uint32_t j = i + 1; j < radius_.size(); ++j) look(i, j, (radius_[i] + radius_[j]) * (radius_[i] + radius_[j]));
-  }
-  template <class Look>
-  void for_near(std::uint32_t i, Look look) const {
-    for (std::uint32_t j = 0; j < radius_.size(); ++j)
-      if (j != i) look(j, (radius_[i] + radius_[j]) * (radius_[i] + radius_[j]));
-  }
-  template <class Archive>
-  void serialize(Archive& /*archive*/) {}
-
- private:
-  std::vector<double> radius_;
-};
-
-template <class Rule, class Search = OverlapAtTheEnd>
-void expect_the_twin(const System& system, double dt, int steps, const std::string& what) {
-  Stepper<ContactStep<Rule, Search, ClosePairs>> listed(system.box, system.disks, system.state, dt);
-  Stepper<ContactStep<Rule, Search, EveryPair>> twin(system.box, system.disks, system.state, dt);
-  listed.record_events(true);
-  twin.record_events(true);
-  run_to(listed, steps * dt);
-  run_to(twin, steps * dt);
-  EXPECT_TRUE(same_bits(listed.state(), twin.state())) << what;
-  std::vector<Event> a, b;
-  listed.take_events(a);
-  twin.take_events(b);
-  ASSERT_EQ(a.size(), b.size()) << what;
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    ASSERT_EQ(a[k].time, b[k].time) << what;
-    ASSERT_EQ(a[k].disk, b[k].disk) << what;
-    ASSERT_EQ(a[k].partner, b[k].partner) << what;
-  }
 }
 
 TEST(Backtrack, IsTheSearchOfAllPairsToTheLastBit) {
@@ -253,86 +177,6 @@ TEST(Backtrack, IsTheSearchOfAllPairsToTheLastBit) {
 
 RC_GTEST_PROP(PropertyBacktrack, IsTheSearchOfAllPairsForAnyDisks, ()) {
   expect_the_twin<Specular>(any_disks(2.0), std::pow(10.0, any_number(-3.0, 1.0)), 50, "any");
-}
-
-RC_GTEST_PROP(PropertySwept, IsTheSearchOfAllPairsForAnyDisks, ()) {
-  expect_the_twin<Specular, AnywhereWithin>(any_disks(4.0), std::pow(10.0, any_number(-3.0, 0.5)), 20, "any");
-}
-
-TEST(Swept, FindsTheGrazeAtEveryStep) {
-  // Offset 15/16 of sigma: the disks would overlap from 2 - sqrt(1 - (15/16)^2) on, for 0.696 of time.
-  const Box box = square_box(16.0, Boundary::periodic);
-  const System graze = system_of(box, {{{4.0, 8.0}, {0.0, 0.0}}, {{6.0, 8.9375}, {-1.0, 0.0}}});
-  for (const double dt : {0.25, 0.5, 1.0, 1.5, 2.0, 4.0}) {
-    Stepper<SweptStep<Specular>> s(box, graze.disks, graze.state, dt);
-    s.record_events(true);
-    run_to(s, 4.0);
-    std::vector<Event> events;
-    s.take_events(events);
-    ASSERT_EQ(events.size(), 1U) << dt;
-    EXPECT_NEAR(events[0].time, 2.0 - std::sqrt(1.0 - 0.9375 * 0.9375), 1e-15) << dt;
-  }
-}
-
-TEST(Swept, HasTheEventsOfTheExactEngineAtAnyStep) {
-  for (const CollisionRule rule : both_rules)
-    for (const Boundary boundary : {Boundary::walls, Boundary::periodic})
-      for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-        Scene scene = mixture_scene(12, 0.3, boundary, seed);
-        scene.effects.collision.rule = rule;
-        const State start = make_simulation(scene).state();
-        constexpr double end = 2.0;
-        const ExactRun exact = exact_run(scene, start, end);
-        for (const double dt : {0.01, 0.1, 0.5, 2.0}) {
-          Simulation s = make_simulation(scene, start, FixedStep{"swept", dt});
-          s.record_events(true);
-          s.run_until(end);
-          const std::string what = fmt::format("seed {}, dt = {}", seed, dt);
-          expect_the_events_of(exact, s, 1e-7, what);
-          EXPECT_LT(rms_difference(scene, s.state(), exact.end), 1e-7) << what;
-        }
-      }
-}
-
-TEST(Swept, IsRightToRoundingFor256DisksWhereBacktrackIsNot) {
-  for (const Fluid& fluid : {Fluid{0.05, 1.44, 0.72}, Fluid{0.4, 0.46, 0.23}, Fluid{0.7, 0.24, 0.08}})
-    EXPECT_GT(expect_right_to_rounding("swept", fluid), 20U);
-}
-
-TEST(Swept, IsTheSearchOfAllPairsToTheLastBit) {
-  for (const Boundary boundary : {Boundary::walls, Boundary::periodic})
-    for (const double packing_fraction : {0.05, 0.3, 0.7})
-      for (const double dt : {0.001, 0.02, 0.3, 2.0}) {
-        const std::string what = fmt::format("{} {}", packing_fraction, dt);
-        const int steps = dt < 1.0 ? 50 : 3;
-        expect_the_twin<Specular, AnywhereWithin>(system_of(gas_scene(60, packing_fraction, boundary)), dt, steps, what);
-        expect_the_twin<Reversal, AnywhereWithin>(system_of(mixture_scene(60, 0.8 * packing_fraction, boundary)), dt, steps,
-                                                  "mixture " + what);
-      }
-  System fast = system_of(gas_scene(64, 0.3, Boundary::periodic));
-  fast.state.velocities.col(17) *= 1000.0;
-  expect_the_twin<Specular, AnywhereWithin>(fast, 0.001, 50, "one fast disk");
-}
-
-TEST(Swept, IsThatSearchForDisksThatCollisionsMakeFasterThanTheListExpects) {
-  // Light disks at rest between heavy ones: the list is made for the speeds of the heavy ones.
-  for (const double dt : {0.01, 0.1}) {
-    System system = system_of(gas_scene(100, 0.5, Boundary::periodic));
-    for (std::size_t i = 0; i < system.disks.count(); i += 2) {
-      system.disks.mass[i] = 0.001;
-      system.state.velocities.col(static_cast<Eigen::Index>(i)).setZero();
-    }
-    expect_the_twin<Specular, AnywhereWithin>(system, dt, 60, fmt::format("dt = {}", dt));
-  }
-}
-
-TEST(Swept, ABoxTooNarrowToTellImagesApartIsRefused) {
-  Scene scene = scene_of(box_of(1.5, 8.0, Boundary::periodic), {species_of(1, 0.5, 1.0, SquareLattice{}, AtRest{})});
-  EXPECT_EQ(refusal<std::invalid_argument>([&] {
-              return make_simulation(scene, FixedStep{"swept", 0.1});
-            }),
-            "the method \"swept\" cannot tell a disk from its images where a periodic box of length 1.5 is shorter than 2.1 "
-            "diameters of 1; take \"backtrack\"");
 }
 
 }  // namespace
