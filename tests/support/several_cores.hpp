@@ -1,6 +1,7 @@
 #pragma once
 // What a run on several cores or processes is held against: the same run on one.
 
+#include "core/all_events.hpp"
 #include "support/same_events.hpp"
 #include "support/same_totals.hpp"
 #include "support/systems.hpp"
@@ -37,6 +38,8 @@ inline Scene mixture(std::int64_t disks) {
   scene.species.insert(scene.species.begin(), large);
   return scene;
 }
+
+inline std::uint64_t all_events(const Simulation& simulation) { return detail::all_events(simulation.counts()); }
 
 /// What must be the same: state, clock, and everything that has been counted.
 inline void expect_same(const Simulation& alone, const Simulation& shared, const std::string& where) {
