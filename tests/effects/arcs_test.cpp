@@ -1,6 +1,7 @@
 // Arcs: what a disk meets of them, the flights along them that graze, and rooms that are built of arcs and segments.
 
 #include "support/billiard.hpp"
+#include "support/block_means.hpp"
 
 #include <gtest/gtest.h>
 
@@ -213,15 +214,13 @@ TEST(ArcFlights, PolygonsOfManySegmentsConvergeToArcs) {
 /// The mean chord of a point in a closed room of that area and perimeter, less pi A / P, in standard errors of blocks.
 double deviation_of_mean_chord(const std::vector<Obstacle>& sides, double area, double perimeter, int bounces) {
   Billiard disk(square_room, sides, {5.1, 4.7}, {std::cos(1.0), std::sin(1.0)}, 1e-9);
-  std::vector<double> blocks;
+  BlockMeans blocks(1);
   for (int b = 0; b < 64; ++b) {
     disk.path = 0.0;
     for (int k = 0; k < bounces / 64; ++k) disk.step();
-    blocks.push_back(disk.path / (bounces / 64) - std::numbers::pi * area / perimeter);
+    blocks.add(disk.path / (bounces / 64) - std::numbers::pi * area / perimeter);
   }
-  double mean = 0.0, square = 0.0;
-  for (const double block : blocks) mean += block / 64.0, square += block * block / 64.0;
-  return mean / std::sqrt((square - mean * mean) / 63.0);
+  return blocks.mean() / blocks.error();
 }
 
 TEST(ArcFlights, MeanChordsOfErgodicRoomsArePiTimesAreaOverPerimeter) {

@@ -1,6 +1,7 @@
 // The circular box: what it conserves, its pressure, its starts, and both engines in it.
 
 #include "observe/effects_report.hpp"
+#include "support/block_means.hpp"
 #include "support/effect_scenes.hpp"
 #include "support/engines.hpp"
 
@@ -81,7 +82,7 @@ TEST(Circle, ADiskKeepsItsAngularMomentumAndItsChord) {
 TEST(Circle, TheMeanChordIsPiTimesTheAreaOverThePerimeter) {
   constexpr double radius = 0.75, time = 60.0;
   constexpr std::uint64_t starts = 10'000;
-  double sum = 0.0, squares = 0.0;
+  BlockMeans rate(1);
   for (std::uint64_t seed = 1; seed <= starts; ++seed) {
     Scene scene = in_circle(1.0, {species_of(1, 0.25, 1.0, RandomPositions{}, FixedSpeed{1.0})});
     scene.run.seed = seed;
@@ -90,12 +91,10 @@ TEST(Circle, TheMeanChordIsPiTimesTheAreaOverThePerimeter) {
     simulation.run_until(time);
     const auto bounces = static_cast<double>(simulation.counts().obstacle);
     EXPECT_NEAR(bounces * chord, time, chord * (1.0 + 1e-9)) << seed;
-    sum += bounces / time, squares += bounces / time * bounces / time;
+    rate.add(bounces / time);
   }
-  const auto count = static_cast<double>(starts);
-  const double mean = sum / count, error = std::sqrt((squares / count - mean * mean) / count);
-  EXPECT_LT(error, 0.01 * mean);
-  EXPECT_NEAR(mean, 2.0 / (std::numbers::pi * radius), 5.0 * error);
+  EXPECT_LT(rate.error(), 0.01 * rate.mean());
+  EXPECT_NEAR(rate.mean(), 2.0 / (std::numbers::pi * radius), 5.0 * rate.error());
 }
 
 /// The number of bounces in chords of that length along the rim until `time`, which are all of the log.

@@ -1,6 +1,7 @@
 // Run-and-tumble motion and Brownian redraws. Free disks move as the laws in closed form say, within the error of the mean over
 // many of them; speeds survive tumbles; both engines draw the same numbers; runs go on to the bit where they were saved.
 
+#include "support/block_means.hpp"
 #include "support/scenes.hpp"
 #include "support/systems.hpp"
 
@@ -27,14 +28,7 @@ Eigen::Matrix2Xd way_of(const Scene& scene, const State& from, const State& to) 
   return to.positions - from.positions + scene.box.lengths().asDiagonal() * (to.images - from.images).cast<double>();
 }
 
-struct Mean {
-  double value, error;
-};
-Mean mean_square(const Eigen::Matrix2Xd& ways) {
-  const Eigen::ArrayXd squares = ways.colwise().squaredNorm().transpose();
-  const double n = static_cast<double>(squares.size()), mean = squares.mean();
-  return {mean, std::sqrt((squares - mean).square().sum() / (n * (n - 1.0)))};
-}
+BlockMeans mean_square(const Eigen::Matrix2Xd& ways) { return mean_of(ways.colwise().squaredNorm().eval()); }
 
 TEST(Tumbling, FreeDisksSpreadAsRunAndTumbleDoes) {
   constexpr double v = 1.5, rate = 2.0, tau = 1.0 / rate;
@@ -44,10 +38,10 @@ TEST(Tumbling, FreeDisksSpreadAsRunAndTumbleDoes) {
   const State start = simulation.state();
   for (const double t : {0.1, 0.5, 2.0}) {
     simulation.run_until(t);
-    const Mean found = mean_square(way_of(scene, start, simulation.state()));
+    const BlockMeans found = mean_square(way_of(scene, start, simulation.state()));
     const double expected = 2.0 * v * v * tau * tau * (t / tau - 1.0 + std::exp(-t / tau));
-    EXPECT_NEAR(found.value, expected, 4.5 * found.error) << "at time " << t;
-    EXPECT_LT(found.error, 0.02 * expected);
+    EXPECT_NEAR(found.mean(), expected, 4.5 * found.error()) << "at time " << t;
+    EXPECT_LT(found.error(), 0.02 * expected);
   }
   EXPECT_EQ(simulation.counts().pair, 0U);
   EXPECT_NEAR(static_cast<double>(simulation.counts().thermostat), 24000.0, 5.0 * std::sqrt(24000.0));
@@ -62,8 +56,8 @@ TEST(Brownian, FreeDisksTakeIndependentStepsOfMaxwellsLaw) {
   const State start = simulation.state();
   for (const int steps : {1, 3, 8}) {
     simulation.run_until(dt * steps);
-    const Mean found = mean_square(way_of(scene, start, simulation.state()));
-    EXPECT_NEAR(found.value, steps * 2.0 * kT / mass * dt * dt, 4.5 * found.error) << steps << " steps";
+    const BlockMeans found = mean_square(way_of(scene, start, simulation.state()));
+    EXPECT_NEAR(found.mean(), steps * 2.0 * kT / mass * dt * dt, 4.5 * found.error()) << steps << " steps";
   }
   EXPECT_EQ(simulation.counts().thermostat, 8U * 6000U) << "the redraw at the end is made";
   EXPECT_EQ(simulation.totals().thermostat, 8U * 6000U);

@@ -1,6 +1,7 @@
 // Work and heat of few disks far from equilibrium: Jarzynski's and Crooks' theorems for two disks that a wall compresses, whose
 // free energy is known in closed form, and the theorem of the heat that goes from wall to wall. Full trials: carom validate.
 
+#include "support/block_means.hpp"
 #include "theory/two_disks.hpp"
 
 #include <carom/observe.hpp>
@@ -28,18 +29,6 @@ double measured(const Scene& scene, const std::string& number) {
       if (scalar.name == number) return scalar.value.value();
   ADD_FAILURE() << "there is no " << number;
   return 0.0;
-}
-
-struct Mean {
-  double value = 0.0, error = 0.0;
-};
-Mean mean_of(const std::vector<double>& values) {
-  const auto n = static_cast<double>(values.size());
-  Mean mean;
-  for (const double value : values) mean.value += value / n;
-  for (const double value : values) mean.error += (value - mean.value) * (value - mean.value);
-  mean.error = std::sqrt(mean.error / (n * (n - 1.0)));
-  return mean;
 }
 
 Scene gas(std::int64_t disks, double width, double height, std::uint64_t seed) {
@@ -72,11 +61,11 @@ TEST(PhysicsFluctuations, WorkObeysJarzynskiAndCrooks) {
     one.push_back(1.0 / (1.0 + std::exp(work - difference)));
   }
   for (const double work : works(4.0, 6.0, 10'001, runs)) other.push_back(1.0 / (1.0 + std::exp(work + difference)));
-  const Mean jarzynski = mean_of(exponentials), work = mean_of(plain), forward = mean_of(one), back = mean_of(other);
-  EXPECT_NEAR(jarzynski.value, 1.0, 4.0 * jarzynski.error);
-  EXPECT_LT(jarzynski.error, 0.08);
-  EXPECT_NEAR(forward.value, back.value, 4.0 * std::hypot(forward.error, back.error));
-  EXPECT_GT(work.value - difference, 4.0 * work.error) << "the compression is not slow";
+  const BlockMeans jarzynski = mean_of(exponentials), work = mean_of(plain), forward = mean_of(one), back = mean_of(other);
+  EXPECT_NEAR(jarzynski.mean(), 1.0, 4.0 * jarzynski.error());
+  EXPECT_LT(jarzynski.error(), 0.08);
+  EXPECT_NEAR(forward.mean(), back.mean(), 4.0 * std::hypot(forward.error(), back.error()));
+  EXPECT_GT(work.mean() - difference, 4.0 * work.error()) << "the compression is not slow";
 }
 
 /// P(q) = exp(s q) P(-q) makes a heat of size |q| negative with probability 1 / (1 + exp(s |q|)).
@@ -96,9 +85,9 @@ TEST(PhysicsFluctuations, HeatGoesTheWrongWayAsOftenAsItMay) {
     wrong += is_wrong;
     excess.push_back(is_wrong - 1.0 / (1.0 + std::exp(s * std::abs(heat))));
   }
-  const Mean found = mean_of(excess);
-  EXPECT_NEAR(found.value, 0.0, 4.0 * found.error);
-  EXPECT_LT(found.error, 0.015);
+  const BlockMeans found = mean_of(excess);
+  EXPECT_NEAR(found.mean(), 0.0, 4.0 * found.error());
+  EXPECT_LT(found.error(), 0.015);
   EXPECT_GT(wrong, runs / 10);
 }
 

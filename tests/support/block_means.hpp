@@ -26,8 +26,9 @@ class BlockMeans {
     return sum / static_cast<double>(blocks_.size());
   }
   [[nodiscard]] double error() const {
+    const double middle = mean();
     double squares = 0.0;
-    for (const double block : blocks_) squares += (block - mean()) * (block - mean());
+    for (const double block : blocks_) squares += (block - middle) * (block - middle);
     const auto n = static_cast<double>(blocks_.size());
     return std::sqrt(squares / (n * (n - 1)));
   }
@@ -38,5 +39,13 @@ class BlockMeans {
   double sum_ = 0.0;
   std::vector<double> blocks_;
 };
+
+/// The mean of independent values.
+template <class Values>
+BlockMeans mean_of(const Values& values) {
+  BlockMeans mean(1);
+  for (const double value : values) mean.add(value);
+  return mean;
+}
 
 }  // namespace carom::test

@@ -1,6 +1,7 @@
 // The ratio of the temperatures of rough inelastic disks that cool.
 
 #include "theory/rough_gas.hpp"
+#include "support/block_means.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,19 +22,15 @@ TEST(GaussianSpinRatio, IsEquipartitionWithoutLossAndTheRootOfItsBalance) {
 }
 
 /// The mean of the ratio over replicas, after the disks have forgotten that they began without spin.
-struct Ratio {
-  double mean = 0.0, error = 0.0;
-};
-Ratio ratio_of(double restitution, double roughness, int replicas, double relaxed) {
-  double sum = 0.0, squares = 0.0;
+BlockMeans ratio_of(double restitution, double roughness, int replicas, double relaxed) {
+  BlockMeans ratio(1);
   constexpr std::int64_t disks = 200;
   for (int k = 0; k < replicas; ++k) {
     RoughGas gas(disks, restitution, roughness, 100 + static_cast<std::uint64_t>(k));
     gas.collide(static_cast<std::int64_t>(relaxed) * disks / 2);
-    sum += gas.spin_ratio(), squares += gas.spin_ratio() * gas.spin_ratio();
+    ratio.add(gas.spin_ratio());
   }
-  const double n = replicas, mean = sum / n;
-  return {mean, std::sqrt((squares / n - mean * mean) / (n - 1.0))};
+  return ratio;
 }
 
 TEST(RoughGas, KeepsEnergyAndSharesItWherePerfectlyRough) {
@@ -43,16 +40,16 @@ TEST(RoughGas, KeepsEnergyAndSharesItWherePerfectlyRough) {
   EXPECT_EQ(gas.spin_temperature(), 0.0);
   gas.collide(9000);
   EXPECT_NEAR(energy(), before, 1e-11 * before);
-  const Ratio found = ratio_of(1.0, 1.0, 100, 30);
-  EXPECT_NEAR(found.mean, 1.0, 4.0 * found.error + 0.015) << "the mean of a ratio is larger by terms of 1 / N";
+  const BlockMeans found = ratio_of(1.0, 1.0, 100, 30);
+  EXPECT_NEAR(found.mean(), 1.0, 4.0 * found.error() + 0.015) << "the mean of a ratio is larger by terms of 1 / N";
 }
 
 TEST(RoughGas, IsGaussianNearPerfectCollisionsAndNotFarFromThem) {
-  const Ratio near = ratio_of(0.99, 0.8, 100, 40);
-  EXPECT_NEAR(near.mean, gaussian_spin_ratio(0.99, 0.8), 4.0 * near.error + 0.02 * near.mean);
-  EXPECT_LT(near.error, 0.02);
-  const Ratio far = ratio_of(0.9, 0.0, 250, 30);
-  EXPECT_LT(far.mean, gaussian_spin_ratio(0.9, 0.0) - 4.0 * far.error);
+  const BlockMeans near = ratio_of(0.99, 0.8, 100, 40);
+  EXPECT_NEAR(near.mean(), gaussian_spin_ratio(0.99, 0.8), 4.0 * near.error() + 0.02 * near.mean());
+  EXPECT_LT(near.error(), 0.02);
+  const BlockMeans far = ratio_of(0.9, 0.0, 250, 30);
+  EXPECT_LT(far.mean(), gaussian_spin_ratio(0.9, 0.0) - 4.0 * far.error());
 }
 
 }  // namespace
