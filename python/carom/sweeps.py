@@ -2,39 +2,35 @@
 
 from __future__ import annotations
 
-import copy
-import hashlib
-import itertools
 import math
 import os
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from os import PathLike
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from carom import _arguments
-from carom._errors import Interrupted, SceneError
+from carom._errors import Interrupted
 from carom._progress import Progress, reporting
+from carom._sweep_points import Points, different, full_keys, points_of, scene_at, seeds_of
+from carom._sweep_workers import Found, Order, run_all
 from carom._toml import value_text
 from carom.results import Table, with_error
-from carom.runs import Observables, Result, _with_observables, run
+from carom.runs import Observables, _with_observables
 from carom.scene import Scene, SceneLike, as_scene, build
 from carom.simulation import Simulation
 
 if TYPE_CHECKING:
-    from concurrent.futures import Executor, Future
+    from concurrent.futures import Executor
 
     from matplotlib.axes import Axes
 
     from carom._finished_runs import FinishedRuns
-
-#: Values by key, every combination being a point; or a list of points, each a mapping of keys to one value.
-Points = Union[Mapping[str, Any], Sequence[Mapping[str, Any]]]
 
 #: Numbers with a shorter name than in summary.json, as `carom.Result` has it.
 _SHORT = {"pressure.Z": "Z"}
@@ -165,10 +161,10 @@ def sweep(
         OutputError: where `out` cannot be written, or holds runs of something else.
     """
     base, own = _with_observables(as_scene(scene), observables)
-    keys, values = _points(points)
-    full = _full_keys(base, keys)
-    values, scenes = _different(values, [_scene_at(base, keys, full, point) for point in values])
-    seed_list = _seeds(seeds, base)
+    keys, values = points_of(points)
+    full = full_keys(base, keys)
+    values, scenes = different(values, [scene_at(base, keys, full, point) for point in values])
+    seed_list = seeds_of(seeds, base)
     step = None if dt is None else _arguments.real(dt, "dt")
     spring = None if stiffness is None else _arguments.real(stiffness, "stiffness")
     if not (engine == "auto" and method is None and step is None and spring is None):
@@ -188,11 +184,11 @@ def sweep(
     in_tables = tuple(name for name in numbers or () if "@" in name)
     settings = {"engine": engine, "method": method, "dt": step, "stiffness": spring, "observables": own}
     orders = [
-        _Order(at, seed, tuple(value_text(point.get(key), key) if key in point else "" for key in keys), point_scene, settings, in_tables)
+        Order(at, seed, tuple(value_text(point.get(key), key) if key in point else "" for key in keys), point_scene, settings, in_tables)
         for at, (point, point_scene) in enumerate(zip(values, scenes, strict=True))
         for seed in seed_list
     ]
-    found: dict[tuple[int, int], _Found] = {}
+    found: dict[tuple[int, int], Found] = {}
     with _kept(out, base, full, settings, orders) as kept, reporting(progress, "sweep") as report_fraction:
         for order in orders:
             earlier = None if kept is None else kept.find(order.name(full))
@@ -200,7 +196,7 @@ def sweep(
             if earlier is not None and all(name in earlier["numbers"] for name in in_tables):
                 found[order.at, order.seed] = earlier
 
-        def keep(order: _Order, outcome: _Found | None) -> None:
+        def keep(order: Order, outcome: Found | None) -> None:
             if outcome is not None:
                 found[order.at, order.seed] = outcome
                 if kept is not None and outcome["state"] == "finished":
@@ -215,9 +211,9 @@ def sweep(
                 from concurrent.futures import ThreadPoolExecutor
 
                 with ThreadPoolExecutor(workers or _processors(), thread_name_prefix="carom.sweep") as threads:
-                    _run_all(threads, to_do, keep)
+                    run_all(threads, to_do, keep)
             elif to_do and executor is not None:
-                _run_all(executor, to_do, keep)
+                run_all(executor, to_do, keep)
         except KeyboardInterrupt:
             interrupted = True
     swept = _tables(base, keys, full, values, seed_list, found, numbers)
@@ -228,116 +224,6 @@ def sweep(
         sentence = f"{swept.failed} of {len(orders)} runs failed, as Sweep.runs says; the first: {failures[0]}"
         warnings.warn(sentence, RuntimeWarning, stacklevel=2)
     return swept
-
-
-#: What is known of a run: state, and where it is finished stopped, state_hash, numbers and units by name; else failure.
-_Found = dict[str, Any]
-
-
-@dataclass(frozen=True)
-class _Order:
-    """One run, as it goes to a worker."""
-
-    at: int  #: number of its point
-    seed: int
-    values: tuple[str, ...]  #: of the keys, in TOML; empty where the scene's own stays
-    scene: Scene
-    settings: dict[str, Any]  #: arguments of carom.run()
-    in_tables: tuple[str, ...]  #: the numbers that come from tables of observables
-
-    def name(self, keys: Sequence[str]) -> dict[str, Any]:
-        """What tells this run from the others of the sweep."""
-        return {"values": dict(zip(keys, self.values, strict=True)), "seed": self.seed}
-
-
-class _Stop(Exception):
-    """The sweep has been stopped."""
-
-
-class _StopFlag:
-    """Tells workers, threads or other processes, to stop once a file is no longer there. Workers on other machines, which cannot see
-    the file, complete what they have begun."""
-
-    def __init__(self, path: str) -> None:
-        self.path, self.host = path, os.uname().nodename
-
-    def check(self, fraction: float = 0.0) -> None:
-        """Raises _Stop where the sweep has been stopped. It takes the fraction done, as a progress callback of `run()` does."""
-        if os.uname().nodename == self.host and not os.path.exists(self.path):
-            raise _Stop
-
-
-def _carry_out(order: _Order, stop_flag: _StopFlag) -> _Found | None:
-    """Does one run in a worker. None where it was stopped."""
-    import json
-
-    from carom import _files
-
-    try:
-        stop_flag.check()
-        result = run(order.scene, seed=order.seed, threads=1, progress=stop_flag.check, **copy.deepcopy(order.settings))
-    except (KeyboardInterrupt, _Stop):
-        return None
-    except (ValueError, RuntimeError, MemoryError) as error:
-        return {"state": "failed", "failure": str(error) or type(error).__name__}
-    if not result.summary.get("measured", True):
-        return {"state": "failed", "failure": f"the run ended while it was still equilibrating ({result.stopped})"}
-    numbers = _files.numbers_in(json.dumps(result.summary))
-    return {
-        "state": "finished",
-        "stopped": str(result.stopped),
-        "state_hash": result.state_hash,
-        "numbers": {name: value for name, value, _ in numbers} | {name: _value_at(result, name)[0] for name in order.in_tables},
-        "units": {name: unit for name, _, unit in numbers if unit}
-        | {name: unit for name in order.in_tables if (unit := _value_at(result, name)[1])},
-    }
-
-
-def _value_at(result: Result, name: str) -> tuple[float | None, str]:
-    """The number "observables.TABLE.COLUMN@VALUE" of a run, on a straight line between two rows of the table, and its unit."""
-    title, _, rest = name.removeprefix("observables.").partition(".")
-    column, _, where = rest.rpartition("@")
-    for measured in result.observables.values():
-        table = measured.tables.get(title)
-        if table is None or column not in table:
-            continue
-        x, y, at = table[next(iter(table))], table[column], float(where)
-        unit = table.units.get(column, "")
-        near = np.flatnonzero(np.abs(x - at) <= 1e-9 * np.abs(at))
-        if len(near):
-            value = float(y[near[0]])
-        elif len(x) and x[0] < at < x[-1] and bool((np.diff(x) > 0).all()):
-            value = float(np.interp(at, x, y))
-        else:
-            return None, unit
-        return (value if math.isfinite(value) else None), unit
-    return None, ""
-
-
-def _run_all(executor: Executor, orders: Sequence[_Order], keep: Callable[[_Order, _Found | None], None]) -> None:
-    """Hands out all runs, and keeps each as it comes. Whatever is raised stops the others, and those that have come are kept."""
-    import queue
-    import tempfile
-
-    ended: queue.SimpleQueue[Future[_Found | None]] = queue.SimpleQueue()
-    futures: dict[Future[_Found | None], _Order] = {}
-    with tempfile.NamedTemporaryFile(prefix="carom-sweep-") as file:
-        stop_flag = _StopFlag(file.name)
-        try:
-            for order in orders:
-                future = executor.submit(_carry_out, order, stop_flag)
-                futures[future] = order
-                future.add_done_callback(ended.put)
-            while futures:
-                future = ended.get()
-                keep(futures[future], future.result())
-                del futures[future]
-        finally:
-            for future in futures:
-                future.cancel()
-            for future, order in futures.items():
-                if future.done() and not future.cancelled() and future.exception() is None:
-                    keep(order, future.result())
 
 
 def _mean_in_words(mean: float, error: float) -> str:
@@ -351,115 +237,9 @@ def _processors() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def _points(points: Points) -> tuple[list[str], list[dict[str, Any]]]:
-    """Returns the keys and the points of a grid or a list."""
-    if isinstance(points, Mapping):
-        grid = {key: _values(key, values) for key, values in points.items()}
-        return _checked_keys(grid), [dict(zip(grid, combination, strict=True)) for combination in itertools.product(*grid.values())]
-    if not isinstance(points, Sequence) or not all(isinstance(point, Mapping) for point in points):
-        example = '{"packing_fraction": [0.1, 0.2]}'
-        raise TypeError(f"{_arguments.shown(points)} are no points; give values by key, such as {example}, or a list of points")
-    keys = list(dict.fromkeys(key for point in points for key in point))
-    if not points:
-        raise ValueError("there are no points; give one at least")
-    return _checked_keys(keys), [dict(point) for point in points]
-
-
-def _values(key: str, values: Any) -> list[Any]:
-    if isinstance(values, (str, bytes, Mapping)) or not isinstance(values, Iterable):
-        return [values]
-    listed = values.tolist() if isinstance(values, np.ndarray) else list(values)
-    if not listed:
-        raise ValueError(f"{key}: there are no values; give one at least")
-    return listed
-
-
-def _checked_keys(keys: Iterable[Any]) -> list[str]:
-    listed = list(keys)
-    for key in listed:
-        if not isinstance(key, str):
-            raise TypeError(f"the key {_arguments.shown(key)} is no string; keys are those of Scene.set(), such as \"disks.0.radius\"")
-        if key in ("run.seed", "seed"):
-            raise ValueError("run.seed cannot be swept; use seeds")
-    return listed
-
-
-def _full_keys(scene: Scene, keys: Sequence[str]) -> list[str]:
-    """Returns the whole of keys of which only the end was given."""
-    import tomllib
-
-    # A key that was given need not be among those with every default: "packing_fraction" has become a radius there.
-    changed = [change.split("=")[0].strip() for change in scene._core.overrides]
-    known = list(dict.fromkeys([*_keys_in(scene.to_dict()), *_keys_in(tomllib.loads(scene.text)), *changed]))
-    tops = {key.split(".")[0] for key in known}
-
-    def full(key: str) -> str:
-        if key in known or key.split(".")[0] in tops:
-            return key
-        ends = [other for other in known if other.endswith(f".{key}")]
-        if len(ends) > 1:
-            raise ValueError(f"{key}: {len(ends)} keys of the scene end so: {', '.join(ends)}; give one of them")
-        if not ends and "." not in key:
-            raise ValueError(f"{key}: no key of the scene ends so; give a whole one, with its table, such as \"disks.0.radius\"")
-        return ends[0] if ends else key
-
-    return [full(key) for key in keys]
-
-
-def _keys_in(value: Any, path: str = "") -> Iterator[str]:
-    """All keys of nested mappings and lists of mappings, joined by dots."""
-    entries = value.items() if isinstance(value, Mapping) else enumerate(value)
-    for key, entry in entries:
-        here = f"{path}.{key}" if path else str(key)
-        yield here
-        if isinstance(entry, Mapping) or (isinstance(entry, list) and entry and isinstance(entry[0], Mapping)):
-            yield from _keys_in(entry, here)
-
-
-def _scene_at(base: Scene, keys: Sequence[str], full: Sequence[str], point: Mapping[str, Any]) -> Scene:
-    try:
-        return base.set({name: point[key] for key, name in zip(keys, full, strict=True) if key in point})
-    except SceneError as error:
-        raise SceneError(f"the scene of the point {_point_text(point)} is refused: {error.sentence}") from None
-
-
-def _different(points: Sequence[dict[str, Any]], scenes: Sequence[Scene]) -> tuple[list[dict[str, Any]], list[Scene]]:
-    """Returns the points whose scenes are all different, with them: of several that have one scene, such as those of 1 and 1.0, the
-    first. A warning names the others."""
-    first: dict[bytes, int] = {}
-    repeated = []
-    for at, scene in enumerate(scenes):
-        earlier = first.setdefault(hashlib.sha256(scene._core.toml.encode()).digest(), at)
-        if earlier != at:
-            repeated.append(f"{_point_text(points[at])} (that of {_point_text(points[earlier])})")
-    if repeated:
-        more = f" and {len(repeated) - 3} more" if len(repeated) > 3 else ""
-        sentence = f"points whose scene another one has already are left out: {'; '.join(repeated[:3])}{more}"
-        warnings.warn(sentence, RuntimeWarning, stacklevel=3)
-    return [points[at] for at in first.values()], [scenes[at] for at in first.values()]
-
-
-def _point_text(point: Mapping[str, Any]) -> str:
-    return ", ".join(f"{key} = {_arguments.shown(value)}" for key, value in point.items())
-
-
-def _seeds(seeds: int | Iterable[int], scene: Scene) -> list[int]:
-    if isinstance(seeds, (int, np.integer)):
-        first = int(scene._core.seed)
-        seeds = range(first, first + _arguments.whole(seeds, "seeds", 0, 1_000_000))
-    if isinstance(seeds, str) or not isinstance(seeds, Iterable):
-        raise TypeError(f"seeds is {_arguments.shown(seeds)}; give a list of whole numbers, or how many there are to be")
-    listed = [_arguments.whole(seed, "a seed") for seed in seeds]
-    if not listed:
-        raise ValueError("there are no seeds; give one at least")
-    if len(set(listed)) < len(listed):
-        raise ValueError(f"the seeds {listed} hold one twice; leave it out")
-    return listed
-
-
 @contextmanager
 def _kept(
-    out: str | PathLike[str] | None, scene: Scene, keys: Sequence[str], settings: Mapping[str, Any], orders: Sequence[_Order]
+    out: str | PathLike[str] | None, scene: Scene, keys: Sequence[str], settings: Mapping[str, Any], orders: Sequence[Order]
 ) -> Iterator[FinishedRuns | None]:
     """Opens the runs that are finished in `out`; None where nothing is kept."""
     out = None if out is None else _arguments.path_text(out, "out")
@@ -495,7 +275,7 @@ def _tables(
     full: Sequence[str],
     points: Sequence[Mapping[str, Any]],
     seeds: Sequence[int],
-    found: Mapping[tuple[int, int], _Found],
+    found: Mapping[tuple[int, int], Found],
     wanted: Sequence[str] | None,
 ) -> Sweep:
     from carom import _files
@@ -504,10 +284,10 @@ def _tables(
     units = {key: unit for key, name in zip(keys, full, strict=True) if (unit := _files.unit_of_key(name))}
     units |= {_SHORT.get(n, n): one["units"][n] for one in found.values() for n in names if n in one.get("units", ())}
     units |= {f"{name}_error": unit for name, unit in units.items() if name not in keys}
-    missing: _Found = {"state": "missing"}
+    missing: Found = {"state": "missing"}
     all_runs = [(at, seed, found.get((at, seed), missing)) for at in range(len(points)) for seed in seeds]
 
-    def number(one: _Found, name: str) -> float | None:
+    def number(one: Found, name: str) -> float | None:
         value: float | None = one.get("numbers", {}).get(name)
         return value
 
@@ -528,7 +308,7 @@ def _tables(
     return Sweep(scene, keys, Table(columns, units, f"Means over {len(seeds)} seeds" if len(seeds) > 1 else "One seed"), runs)
 
 
-def _numbers(found: Mapping[tuple[int, int], _Found], keys: Sequence[str]) -> list[str]:
+def _numbers(found: Mapping[tuple[int, int], Found], keys: Sequence[str]) -> list[str]:
     """The usual numbers that any run has, in the order of their runs; a key of the sweep is none."""
     from carom import _files
 
