@@ -70,8 +70,8 @@ std::string fault_of(const Change& change, const test::AnyEngine& engine) {
   const double after = kinetic_energy(change.start.disks, engine.state());
   const double drift = after - before + totals.dissipated - totals.growth_energy;
   // A million terms, each rounded by 1e-16 of the sum of them at most.
-  if (!(std::abs(drift) < 1e-10 * std::max(before, after))) return "energy has come or gone unseen";
-  if (std::abs(after / before - 1.0) < 0.5) return "nothing much has changed";
+  if (!(std::abs(drift) < 1e-10 * std::max(before, after))) return "the energy is not that of the account";
+  if (std::abs(after / before - 1.0) < 0.5) return "the temperature has changed by less than a half";
   const std::vector<std::string> broken = engine.check_invariants();
   return broken.empty() ? "" : broken.front();
 }

@@ -137,7 +137,7 @@ class Rollback {
 };
 
 /// Each domain with a copy of what is round it, its halo, on a core of its own, without a word to the others. What comes from
-/// beyond the halo is missing there, and whoever meets a disk that is wrong in a copy is wrong there too; all is well until that
+/// beyond the halo is missing there, and a disk that meets one that is wrong in a copy is wrong there too; all is well until that
 /// comes to a disk at home. Then all halos are copied anew: begin().
 class HaloWindows {
  public:

@@ -58,7 +58,7 @@ class EventReplay {
       : length_(box.lengths()), lower_(box.lower), sigma_(sigma), line_(static_cast<std::size_t>(start.positions.cols())) {
     for (int a = 0; a < 2; ++a) {
       cells_[a] = static_cast<Id>(length_[a] / (reach + 0.5 * sigma + margin()));
-      if (cells_[a] < 3) throw std::invalid_argument("a box too small to tell who is near");
+      if (cells_[a] < 3) throw std::invalid_argument("the box is shorter than three cells");
     }
     for (std::size_t k = 0; k < line_.size(); ++k) {
       const auto column = static_cast<Eigen::Index>(k);

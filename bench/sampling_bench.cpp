@@ -45,7 +45,7 @@ void sampled(benchmark::State& state) {
 }
 BENCHMARK(sampled)->Arg(64)->Arg(10'000)->Unit(benchmark::kMillisecond);
 
-/// One call of run_until(), which nobody can stop.
+/// One call of run_until(), which nothing can stop.
 void in_one_call(benchmark::State& state) {
   const carom::Scene scene = gas_of(state.range(0));
   for (auto _ : state) {

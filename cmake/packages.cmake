@@ -1,5 +1,5 @@
 # Packages by cpack: for Debian carom, libcarom-dev, carom-mpi where MPI is found, and python3-carom where the Python package is built;
-# and a tarball. Nobody has to install MPI who does not compute on many machines.
+# and a tarball. A run on one machine needs no MPI.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "The authors of Carom <carom@localhost>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)

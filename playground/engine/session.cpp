@@ -74,7 +74,7 @@ void Session::apply(const Change& change) {
   const bool reverses = scale != nullptr && scale->factor == -1.0;
   keep_moment();
   run_.apply(change);
-  pending_.clear();  // somebody does otherwise than the list
+  pending_.clear();  // the visitor does otherwise than the list
   measured_.begin(run_, step_);
   if (reverses)
     way_back_.reverse(run_);

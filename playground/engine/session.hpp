@@ -51,7 +51,7 @@ class Session {
   /// Runs to the next event; the changes of the list on the way are made.
   std::optional<Event> step();
   /// Goes back by a number of events, as far as is known. Returns whether it could. The changes on the way are made again; those
-  /// after it are to come, until somebody makes another.
+  /// after it are to come, until the visitor makes another.
   bool back(std::uint64_t events);
   void keep_moment() { moments_.keep(run_); }
   void begin_measuring();

@@ -1,4 +1,4 @@
-"""How far a call has come, for those who wait for it."""
+"""The progress of a call."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Progress = Union[bool, Callable[[float], object]]
 
 @contextmanager
 def reporting(progress: Progress | None, what: str) -> Iterator[Callable[[float], object] | None]:
-    """Gives a function that takes the fraction done, several times a second; None where nobody wants to know."""
+    """Gives a function that takes the fraction done, several times a second; None where there is no progress to report."""
     if progress is None or progress is False:
         yield None
     elif progress is not True and not callable(progress):

@@ -490,7 +490,7 @@ class Simulation:
         try:
             self._core.set_effects(scene_text(acting))
         except SceneError as error:
-            raise SceneError(error.sentence) from None  # nobody has seen the lines of that text
+            raise SceneError(error.sentence) from None  # the user has not seen the lines of that text
         self._moved()
         self._now = self._disks = None
 

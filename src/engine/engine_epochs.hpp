@@ -147,7 +147,7 @@ void LoopState<Impact, Layout, World>::reset_falling_frame() {
 }
 
 template <class Impact, class Layout, class World>
-double LoopState<Impact, Layout, World>::room_of_lines(int axis, double t) const {
+double LoopState<Impact, Layout, World>::layer_of_lines(int axis, double t) const {
   double out = 0.0;
   if constexpr (!World::plain)
     out = std::max(world_.walls.displacement(wall_of(axis, false), t), world_.walls.displacement(wall_of(axis, true), t));
@@ -158,7 +158,7 @@ template <class Impact, class Layout, class World>
 bool LoopState<Impact, Layout, World>::may_widen_coordinates(double t) const {
   if constexpr (!World::plain)
     for (int k = 0; k < 2; ++k)
-      if (!flight_.axis(k).periodic && !(room_of_lines(k, t) * (1.0 + 0x1p-20) <= room_of_coordinates(k))) return true;
+      if (!flight_.axis(k).periodic && !(layer_of_lines(k, t) * (1.0 + 0x1p-20) <= layer_of_coordinates(k))) return true;
   return false;
 }
 
@@ -168,7 +168,7 @@ template <class Impact, class Layout, class World>
 void EventLoop<Impact, Layout, World>::widen_coordinates() {
   bool wider = false;
   for (int k = 0; k < 2; ++k) {
-    if (flight_.axis(k).periodic || this->room_of_lines(k, 0.0) <= this->room_of_coordinates(k)) continue;
+    if (flight_.axis(k).periodic || this->layer_of_lines(k, 0.0) <= this->layer_of_coordinates(k)) continue;
     flight_.coarsen(k, lines_);
     frame_.unit[k] = flight_.axis(k).unit;
     frame_.steps[k] = flight_.axis(k).steps;

@@ -113,8 +113,8 @@ class LoopState {
   void choose_epoch_length(const SpeedSummary& speeds);
   [[nodiscard]] double longest_epoch_of_world() const;
   /// The room along an axis with walls that lines take in an epoch that begins at time t, and all that coordinates have: lengths.
-  [[nodiscard]] double room_of_lines(int axis, double t) const;
-  [[nodiscard]] double room_of_coordinates(int axis) const { return 0x1p63 * flight_.axis(axis).unit * 2.0; }
+  [[nodiscard]] double layer_of_lines(int axis, double t) const;
+  [[nodiscard]] double layer_of_coordinates(int axis) const { return 0x1p63 * flight_.axis(axis).unit * 2.0; }
   /// Whether walls may be so far outside the box at time t that an epoch which begins then makes coordinates coarser. It may say
   /// so where that is not so by a rounding.
   [[nodiscard]] bool may_widen_coordinates(double t) const;

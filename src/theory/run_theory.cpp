@@ -29,8 +29,8 @@ constexpr int line_points = 200;
 /// (144 disks; 60 up to 0.4): in a narrower one disks meet images of their own neighbours.
 bool is_wide(const Box& box, double sigma, double eta) { return box.lengths().minCoeff() >= (eta <= 0.45 ? 4.0 : 6.0) * sigma; }
 
-/// From so many disks on, Z of infinitely many is good to 0.2 % at packing fractions between densest_finite and densest_fluid: it is
-/// 2 % more than that of 144 disks at 0.69, and the difference falls as 1/N.
+/// From so many disks on, Z of infinitely many is good to 0.2 % at packing fractions between densest_finite and densest_fluid: it
+/// is 2 % more than that of 144 disks at 0.69, and the difference falls as 1/N.
 constexpr std::int64_t many_dense_disks = 2000;
 
 /// Even steps over the first column of a table, beginning above zero.
@@ -123,7 +123,8 @@ void RunTheory::find_Z() {
     Z_ = {theory::kolafa_rottner_finite(eta_, report_.disks), fmt::format("Kolafa & Rottner, N = {}", report_.disks)};
   } else if (eta_ <= densest_fluid && report_.disks < many_dense_disks) {
     why_not_Z_ = fmt::format(
-        "No theory is given: above a packing fraction of {:g}, the equation of state of infinitely many disks is good to 0.2 % from "
+        "No theory is given: above a packing fraction of {:g}, the equation of state of infinitely many disks is good to 0.2 % "
+        "from "
         "{} disks on.",
         densest_finite, many_dense_disks);
   } else if (eta_ <= densest_fluid) {
@@ -237,9 +238,8 @@ std::vector<TheoryCurve> RunTheory::density_curves(const Table& table) const {
   }
   const Disks& disks = source_->disks;
   const bool is_equal = disks.count() > 0 && all_equal(disks.radius) && all_equal(disks.mass);
-  const bool is_hard = std::ranges::none_of(std::array{"square_well", "stepped_potential", "non_additivity"}, [&](const char* name) {
-    return detail::effect_named(name).acts(scene.effects);
-  });
+  const bool is_hard = std::ranges::none_of(std::array{"square_well", "stepped_potential", "non_additivity"},
+                                            [&](const char* name) { return detail::effect_named(name).acts(scene.effects); });
   // Beside an acceleration along the other axis, the profile of neither is that of one alone.
   const bool falls_along_it = falls && scene.effects.acceleration()[across] == 0.0;
   if (!falls_along_it || !is_equal || !is_hard || velocities_ == Velocities::unknown) return {};

@@ -217,7 +217,7 @@ TEST_F(CompareCommand, InterruptedItKeepsItsPointsAndGoesOnFromThere) {
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("another scene, other options"));
   EXPECT_EQ(lines_of(text_of(points)), before);
-  EXPECT_EQ(compare(options).exit_code, 2);  // they are results, and nobody said --force
+  EXPECT_EQ(compare(options).exit_code, 2);  // they are results, and --force was not given
 
   const Outcome resumed = compare({"--seeds", "3", "--resume"});
   EXPECT_EQ(resumed.exit_code, 0) << resumed.err;

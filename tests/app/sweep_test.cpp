@@ -339,7 +339,7 @@ TEST_F(ScenesLongSweep, TwoAtATimeAreRefusedAndAKillLeavesNoRunAtWork) {
     kill(child, SIGKILL);
   });
   EXPECT_EQ(killed.exit_code, 128 + SIGKILL);
-  // Runs hold the lock as long as they live: who gets it is alone.
+  // Runs hold the lock as long as they live: a run that gets it is alone.
   write_text(file("gas-sweep.toml"), sweep_text);
   const Outcome next = sweep({"-q"});
   EXPECT_EQ(next.exit_code, 0) << next.err;

@@ -31,11 +31,11 @@ set_tests_properties(architecture.IncludesFormNoCircle architecture.CircleOfIncl
 # What the documentation names: tests, hard cases, files. The check sees one of each that is not there, and a claim that nothing checks.
 set(check_claims ${CMAKE_CURRENT_SOURCE_DIR}/architecture/check_claims.cmake)
 add_test(NAME architecture.ClaimsNameWhatIsThere COMMAND ${CMAKE_COMMAND} -D SOURCE_DIR=${PROJECT_SOURCE_DIR} -P ${check_claims})
-set(idle_talk ${CMAKE_CURRENT_BINARY_DIR}/idle_talk)
-file(WRITE ${idle_talk}/tests/there_test.cpp "TEST(There, Is) {}\n")
-file(WRITE ${idle_talk}/docs/claims.md
+set(false_claims ${CMAKE_CURRENT_BINARY_DIR}/false_claims)
+file(WRITE ${false_claims}/tests/there_test.cpp "TEST(There, Is) {}\n")
+file(WRITE ${false_claims}/docs/claims.md
      "| claim | `There.Is`, `There.…`, `There.I` |\n| claim | `NotThere.…`, `tests/not_there.cpp` |\n| claim | hard case `not_there` |\n| claim |  |\n")
-add_test(NAME architecture.ClaimsOfNothingAreFound COMMAND ${CMAKE_COMMAND} -D SOURCE_DIR=${idle_talk} -P ${check_claims})
+add_test(NAME architecture.ClaimsOfNothingAreFound COMMAND ${CMAKE_COMMAND} -D SOURCE_DIR=${false_claims} -P ${check_claims})
 set_tests_properties(architecture.ClaimsOfNothingAreFound PROPERTIES PASS_REGULAR_EXPRESSION
   "no test There.I\n.*no test NotThere.…\n.*no tests/not_there.cpp\n.*no hard case not_there\n.*nothing checks: . claim .  .\n")
 set_tests_properties(architecture.ClaimsNameWhatIsThere architecture.ClaimsOfNothingAreFound PROPERTIES LABELS quick)

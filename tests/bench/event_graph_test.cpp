@@ -52,8 +52,8 @@ TEST(EventGraph, PathThroughAHandoverIsAsLongAsTheHandover) {
 
 TEST(EventGraph, PathOfEventsApartIsOne) { EXPECT_EQ(path_of(6, {pair(0, 1), pair(2, 3), pair(4, 5)}).length(), 1); }
 
-TEST(EventGraph, NeighbourThatOnlyLooksWaitsButIsNotWaitedFor) {
-  // 2-3 looks at 1, which 0-1 has moved; 0-1 again looks at nobody else.
+TEST(EventGraph, ADomainThatOnlyReadsWaitsAndIsNotWaitedFor) {
+  // 2-3 reads 1, which 0-1 has moved; 0-1 again reads no other disk.
   EXPECT_EQ(path_of(4, {pair(0, 1), {2, 3, {1, 2, 3}}, pair(0, 1)}).length(), 2);
 }
 
@@ -96,7 +96,7 @@ TEST(EventGraph, CoresThatNeverMeetShareTheWorkAndOnesThatAlwaysMeetDoNot) {
   EXPECT_EQ(together.meetings(), 10);
 }
 
-TEST(EventGraph, WhoIsAheadWaitsForWhomHeMeets) {
+TEST(EventGraph, TheDomainAheadWaitsForTheOneItCollidesWith) {
   DomainClocks clocks(2, 0.0);
   for (int k = 0; k < 5; ++k) clocks.add(only(0));
   clocks.add(only(0) | only(1));  // begins at 5, ends at 6

@@ -1,4 +1,4 @@
-// A recorded run once more: places, who is near, domains, and the first difference of two runs.
+// A recorded run once more: places, neighbours, domains, and the first difference of two runs.
 
 #include "../../bench/event_replay.hpp"
 
@@ -47,7 +47,7 @@ TEST(EventReplay, SeesThatACollisionComesAMillionthLate) {
   EXPECT_FALSE(replay.collide(late));
 }
 
-TEST(EventReplay, WhoIsNearIsWhomASearchAmongAllFinds) {
+TEST(EventReplay, NeighboursAreThoseOfASearchOfAllPairs) {
   const Recorded run = recorded_gas(256, 1000);
   EventReplay replay(run.box, run.start, 1.0, 3.0);
   std::vector<Id> found;

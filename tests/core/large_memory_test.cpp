@@ -50,7 +50,7 @@ TEST(LargeMemory, IsInSmallPagesWhereLessThanHalfOfALargeOneIsLeftOver) {
 TEST(LargeMemory, RefusesWhatNoMachineHas) {
   LargeAllocator<double> allocator;
   EXPECT_THROW((void)allocator.allocate(std::numeric_limits<std::size_t>::max() / 8), std::bad_array_new_length);
-  if (!maps) return;  // the compiler may see that nobody uses what the C library refuses
+  if (!maps) return;  // the compiler may see that nothing uses what the C library refuses
   EXPECT_THROW((void)allocator.allocate(std::size_t{1} << 52), std::bad_alloc);
 }
 

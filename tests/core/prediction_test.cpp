@@ -126,7 +126,7 @@ void expect_as_twin(const std::vector<Line>& lines, const PredictionFrame& frame
   ASSERT_EQ(found.edge_time, leaving_time(frame, self, list.centre, now));
 }
 
-// ------------------------------------------------------------------------------------------------- random and hostile
+// ------------------------------------------------------------------------------------------------- random and extreme
 
 struct Drawn {
   PredictionFrame frame;
@@ -336,7 +336,7 @@ TEST_P(PredictionKernels, GiveTheSameBitsByAnEdgeThatSlidesForThoseOnOneSideOfIt
   for (int k = 0; k < 5'000; ++k) {
     Drawn drawn = draw(random, 1 + random() % 20);
     const std::vector<std::int32_t> heights(drawn.plain.size(), static_cast<std::int32_t>(random()));
-    // Either everybody is by an edge, or those whose neighbourhoods are in the outer half.
+    // Either all disks are by an edge, or those whose neighbourhoods are in the outer half.
     const std::int64_t inner = k % 2 == 0 ? 0 : 1 << 30;
     drawn.frame.sliding = {heights.data(), static_cast<std::int64_t>(random()), 3.0, inner};
     ASSERT_NO_FATAL_FAILURE(expect_predictions_of_twin(drawn, drawn.plain, random, GetParam(), PredictionKind::sheared))
@@ -401,7 +401,7 @@ TEST_P(PredictionKernels, ConvertEveryCoordinateDifferenceAsTheHardwareDoes) {
   }
 }
 
-TEST_P(PredictionKernels, FindNobodyInPaddingAndNobodyAtAll) {
+TEST_P(PredictionKernels, FindNoDiskInPaddingAndNoneInAnEmptyList) {
   const std::vector<Flight> lines = {{{0, 0}, {1.0, -2.0}}};
   const PredictionFrame frame = frame_of(0x1p-60, 1.0, 0.5);
   for (const std::size_t padding : {8u, 16u, 24u}) {
@@ -416,7 +416,7 @@ TEST_P(PredictionKernels, FindNobodyInPaddingAndNobodyAtAll) {
 }
 
 TEST_P(PredictionKernels, SayThatTwoAreTiedWhereverTheyStandInTheList) {
-  // Disk 0 at rest; 1 and 2 come from either side and touch it at t = 2; everybody else later.
+  // Disk 0 at rest; 1 and 2 come from either side and touch it at t = 2; all others later.
   const double step = 0x1p-56;
   const PredictionFrame frame = frame_of(step, 1.0, 100.0);
   std::vector<Flight> lines(32);

@@ -34,7 +34,7 @@ Scene row(int count, double restitution, double speed = 1.0) {
 
 /// Each disk that comes to the wall comes back against the others, and all collide without end until all are at rest: momentum
 /// goes into the wall, and what is left of speeds after a round is a share of what it was before. Where places are rounded in
-/// steps, gaps of a step may put an end to that, when speeds are so low that nobody could tell.
+/// steps, gaps of a step may put an end to that, when speeds are so low that it makes no difference.
 void expect_collapse(const Scene& scene, const std::string& engine, double when) {
   SCOPED_TRACE(engine);
   Simulation simulation = make_simulation(scene, engine);
@@ -228,7 +228,7 @@ TEST(Cooling, OfDisksThatNeverMeetAgainEndsAtOnce) {
   }
 }
 
-TEST(Cooling, EndsAtTheSameEventOnSeveralCoresAndWhoeverLooksOn) {
+TEST(Cooling, EndsAtTheSameEventOnSeveralCoresAndHoweverItIsSampled) {
   Scene scene = cooling_gas(50, 0.5);
   State start = draw_start(scene).state;
   start.velocities.colwise() += V(0x1p14, -0x1p13);

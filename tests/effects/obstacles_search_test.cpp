@@ -43,7 +43,7 @@ class ObstacleSearch : public ::testing::Test {
   }
 };
 
-TEST_F(ObstacleSearch, AsksWhoeverMatters) {
+TEST_F(ObstacleSearch, FindsWhatASearchOfAllObstaclesFinds) {
   int met = 0;
   for (int n = 0; n < 300; ++n) {
     const Box box = box_of(between(0.5, 12.0), between(0.5, 12.0), boundary(), boundary());
@@ -91,7 +91,7 @@ TEST_F(ObstacleSearch, TheDeepestOverlapIsThatOfAllShapesAskedOneByOne) {
   EXPECT_GT(overlaps, 1000);
 }
 
-TEST_F(ObstacleSearch, AsksWhoeverMattersOnPathsWithoutEnd) {
+TEST_F(ObstacleSearch, FindsOnPathsWithoutEndWhatASearchOfAllFinds) {
   int met = 0;
   for (int n = 0; n < 300; ++n) {
     const Box box = box_of(between(3.0, 12.0), between(3.0, 12.0), boundary(), Boundary::periodic);

@@ -113,7 +113,7 @@ TEST_P(Redraws, GoOnWhereTheyWereSaved) {
   }
 }
 
-TEST_P(Redraws, AreToldOneByOneToThoseWhoStep) {
+TEST_P(Redraws, AreEventsOfSingleSteps) {
   Simulation simulation = make_simulation(scene());
   std::uint64_t told = 0;
   while (const auto event = simulation.step(2.0)) {

@@ -59,7 +59,7 @@ TEST(SquareWell, IsTheSameInAnyUnitOfMass) {
     }
 }
 
-TEST(SquareWell, AShoulderLetsThroughWhoeverHasTheEnergyAndTurnsBackTheRest) {
+TEST(SquareWell, AShoulderLetsThroughDisksWithTheEnergyAndReflectsTheRest) {
   // mu u^2 / 2 = 1/4.
   for (const char* engine : engines_with_effects) {
     const Ran through = run(head_on(-0.1875), engine, 1.5);

@@ -20,7 +20,7 @@ Scene one_disk(const V& r, const V& v, double mass = 1.0) {
 
 // ------------------------------------------------------------------------------------------ thermal walls
 
-TEST(ThermalWalls, SendDisksOffWithTheVelocitiesOfThoseWhoCrossAPlane) {
+TEST(ThermalWalls, SendDisksOffWithTheVelocitiesOfTheFluxThroughAPlane) {
   // v_n = sqrt(2 kT / m) sqrt(-ln U): mean sqrt(pi kT / 2 m), mean square 2 kT / m. Half a Gaussian would have sqrt(2 kT / pi m)
   // and kT / m: 1.25 and 2 against 0.80 and 1.
   constexpr int draws = 100'000;

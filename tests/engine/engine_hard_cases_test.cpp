@@ -1,5 +1,5 @@
 // Where an engine that keeps lines, neighbourhoods and stale ids could go wrong: many events at one instant, disks that become
-// faster than anything was, pairs that see each other round the box, and next to nobody there.
+// faster than anything was, pairs that see each other round the box, and very few disks.
 
 #include "support/engines.hpp"
 
@@ -86,7 +86,8 @@ RC_GTEST_PROP(PropertyEngineTies, RowsOfDisksThatMeetAtTheSameInstantsAreBrokenA
 }
 
 TEST(EngineTies, ADiskThatMeetsAWallAndALowerDiskAtOnceMeetsTheDiskFirst) {
-  // Disk 2 sets disk 1 moving upwards at t = 1. At t = 4 it touches the top wall and disk 0, who did not know of it. From r =
+  // Disk 2 sets disk 1 moving upwards at t = 1. At t = 4 it touches the top wall and disk 0, which was predicted without it. From
+  // r =
   // (-4, 3) at t = 1 no rounding comes in: the distance is 5.
   const System system = system_of({{0.0, 0.0}, {16.0, 8.0}, {Boundary::walls, Boundary::walls}},
                                   {{{5.0, 7.5}, {1.0, 0.0}}, {{10.0, 4.5}, {0.0, 0.0}}, {{10.0, 2.5}, {0.0, 1.0}}});
@@ -184,7 +185,7 @@ TEST(EngineSuddenSpeed, ADiskThatOutrunsItsEpochKeepsItsPlace) {
   }
 }
 
-TEST(EngineSuddenSpeed, ADiskThatOutrunsItsEpochMissesNobody) {
+TEST(EngineSuddenSpeed, ADiskThatOutrunsItsEpochMissesNoCollision) {
   const Box box{{-3.0, 1.0}, {3.0, 7.0}, {Boundary::walls, Boundary::periodic}};
   const System system = system_of(box, {{{-1.2970703125, 3.854150390625}, {-1.5, -0.5}, 0.1, 1e9},
                                         {{-0.837890625, 2.576171875}, {-0.5, -0.5}, 1.0, 1e-3},

@@ -126,7 +126,7 @@ TEST(Engine, ResettingTheClockAtTheStartChangesNothing) {
   }
 }
 
-// --------------------------------------------------------------------------------------------------- nearly nobody
+// ----------------------------------------------------------------------------------------------- no disk, one and few
 
 TEST(Engine, RunsWithoutDisks) {
   for (const Boundary boundary : {Boundary::walls, Boundary::periodic}) {

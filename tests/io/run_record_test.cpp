@@ -70,7 +70,7 @@ TEST(RunReportOf, HasAllThatEffectsDid) {
   EXPECT_EQ(again(json), json);
 }
 
-TEST(RunReportOf, TellsApartWhoHasRedrawnVelocities) {
+TEST(RunReportOf, TellsApartWhichEffectHasRedrawnVelocities) {
   RunReport report = with_effects();
   report.totals.thermostat = 4321 + 65 + 7;
   report.of_effects.tumbling = TumblingReport{.events = 65};

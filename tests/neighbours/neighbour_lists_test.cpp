@@ -55,7 +55,7 @@ class Neighbourhoods {
     return {moved(0, from.x), moved(1, from.y)};
   }
 
-  /// Moves a neighbourhood; whom the call returns must be exactly those who are on the list and were not before.
+  /// Moves a neighbourhood; the indices that the call returns must be exactly those that are on the list and were not before.
   void move(std::int32_t i, NeighbourhoodCentre to) {
     const std::vector<std::int32_t> before = list(i);
     const auto returned = lists_.move_neighbourhood(i, to);
@@ -206,7 +206,7 @@ TEST(NeighbourLists, GrowBeyondSixtyFourAndShrinkAgain) {
     Neighbourhoods neighbourhoods(shifted_box(30.0, 30.0, kind[0], kind[1]), equal(150, 0.5), 0.3, 7);
     for (int round = 0; round < 3; ++round) {
       std::uint32_t most = 0;
-      for (std::int32_t i = 0; i < neighbourhoods.count(); ++i) {  // everybody into one corner, one by one
+      for (std::int32_t i = 0; i < neighbourhoods.count(); ++i) {  // all into one corner, one by one
         ASSERT_NO_FATAL_FAILURE(
             neighbourhoods.move(i, neighbourhoods.at(0.01 * neighbourhoods.unit(), 0.01 * neighbourhoods.unit())));
         most = std::max(most, neighbourhoods.lists().count(0));

@@ -43,8 +43,8 @@ TEST(DiskClusters, ARowAcrossAPeriodicBoxPercolatesAndOneWithAGapDoesNot) {
   EXPECT_EQ(DiskClusters(cluster_box(4.4, 6.0), row, radii, 0.09).pairs(), 0U);
 }
 
-/// The ends of a chain around a corner of the box are neighbours of nobody; a chain along the diagonal percolates along both
-/// axes.
+/// The ends of a chain around a corner of the box have no neighbour but that of the chain; a chain along the diagonal percolates
+/// along both axes.
 TEST(DiskClusters, AChainAlongTheDiagonalPercolatesAlongBothAxes) {
   std::vector<Eigen::Vector2d> chain;
   for (int i = 0; i < 8; ++i) chain.emplace_back(0.3 + 0.75 * i, 0.2 + 0.75 * i);

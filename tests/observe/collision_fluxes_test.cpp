@@ -209,7 +209,7 @@ TEST(CollisionFluxes, ThatAreToldAreWhatTheVelocitiesSay) {
   }
 }
 
-TEST(CollisionFluxes, AreAddedUpForAllWhoAskForTheSame) {
+TEST(CollisionFluxes, AreAddedUpOnceForAllObservablesWithTheSameStep) {
   const Told told;
   Asking all, momentum(2), others(5);
   FluxMeter meter(told.scene, told.disks);

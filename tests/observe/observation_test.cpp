@@ -98,7 +98,7 @@ TEST(Observation, AsksForNothingWhereNothingIsObserved) {
   EXPECT_TRUE(hooks.grids.empty());
 }
 
-TEST(Observation, RecordsNoCollisionsForThoseWhoDoNotFollowThem) {
+TEST(Observation, RecordsNoCollisionsWhereNoObservableFollowsThem) {
   const Simulation simulation = make_simulation(parse_scene(small_fluid("temperature = true\nspeeds = true\nhexatic = true")));
   Observation observation(simulation);
   RunHooks hooks;

@@ -114,7 +114,7 @@ TEST(ObservingThread, WhatWasThrownComesOutAsOftenAsOneTries) {
   }
 }
 
-TEST(ObservingThread, ARunThatEndsEarlyLeavesNobodyWaiting) {
+TEST(ObservingThread, ARunThatEndsEarlyEndsItsObservingThread) {
   Simulation simulation = make_simulation(parse_scene(small_fluid(everything)));
   Observation observation(simulation);
   RunHooks hooks;

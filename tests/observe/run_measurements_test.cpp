@@ -243,7 +243,7 @@ TEST(RunMeasurements, LoadsActOnTheLengthOfNowWhereAChangeStopsAWall) {
   EXPECT_NEAR(energy_at(6.0), first, 1e-10 * std::abs(first));
 }
 
-TEST(RunMeasurements, RedrawsAreCountedForWhoeverActed) {
+TEST(RunMeasurements, RedrawsAreCountedByTheirEffect) {
   Scene scene = gas_scene(16, 0.1, Boundary::periodic);
   scene.run.time = 2.0;
   scene.effects.thermostat = Thermostat{.temperature = 1.0, .rate = 0.0};

@@ -29,7 +29,7 @@ def test_a_broken_scene_is_refused_with_its_sentence(path: Path) -> None:
     assert error.line == 0 or f":{error.line}:{error.column}: " in expected
 
 
-def test_a_scene_of_values_is_refused_without_lines_that_nobody_has_seen() -> None:
+def test_a_scene_of_values_is_refused_without_lines_of_its_text() -> None:
     with pytest.raises(carom.SceneError) as raised:
         carom.Scene(GAS, disks={**DISKS, "radius": "big"})
     assert str(raised.value) == (

@@ -1,4 +1,4 @@
-"""The naive method in numpy is the library's to the last bit: whoever doubts that it treats their script fairly can read it."""
+"""The naive method in numpy is the library's to the last bit, so that a reader can check how it treats such a script."""
 
 from __future__ import annotations
 

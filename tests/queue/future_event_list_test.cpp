@@ -115,7 +115,7 @@ TEST(FutureEventList, ServesTimesUpToTheLargestNumberInOrder) {
 }
 
 TEST(FutureEventList, ServesTwoEventsAtOneTimeInOrderWhereverTheyAre) {
-  // A few have the same time: two of one group of a tournament now and then, and nobody else.
+  // A few have the same time: two of one group of a tournament now and then, and no others.
   const Draw dyadic = [](Random& random, double now) { return now + 0x1p-10 * (1 + below(random, 3000)); };
   for (const std::int32_t disks : {64, 1000, 1500})
     for (const Ranks ranks : {Ranks::of_disks, Ranks::of_disks_falling})
@@ -219,7 +219,7 @@ TEST(TournamentQueue, ServesInOrderAfterMostEventsHaveBeenReplacedAtOnce) {
   }
 }
 
-TEST(TournamentQueue, TellsWhoIsNextWhileTheEventBeforeIsDealtWith) {
+TEST(TournamentQueue, PredictsTheNextEventWhileTheOneBeforeIsHandled) {
   Events events(40);
   TournamentQueue<Events> queue;
   queue.start(40);
@@ -240,7 +240,7 @@ TEST(TournamentQueue, TellsWhoIsNextWhileTheEventBeforeIsDealtWith) {
   EXPECT_EQ(queue.next(events).disk, 2);
 }
 
-TEST(Tournament, FindsWhoInAGroupHasATime) {
+TEST(Tournament, FindsTheDiskOfAGroupThatHasATime) {
   for (const std::string_view set : instruction_sets) {
     const WithInstructions asked(set);
     const TournamentKernel& kernel = tournament_kernel(2);

@@ -124,7 +124,7 @@ TEST(Runner, SavesARunThatIsStoppedAndGoesOnToTheSameBits) {
   EXPECT_EQ(text_of(place.path() / "part/samples.csv"), text_of(place.path() / "whole/samples.csv"));
 }
 
-TEST(Runner, HandsTheStartOfTheMeasuredRunToWhoeverCompletesTheReport) {
+TEST(Runner, HandsTheStartOfTheMeasuredRunToTheHookThatCompletesTheReport) {
   const TemporaryDirectory place;
   Simulation simulation = make_simulation(gas());
   const State start = simulation.state();

@@ -86,7 +86,7 @@ TEST(Observe, OverridesReachIt) {
   EXPECT_EQ(scene.observe[1].name, "wall_fluxes");
 }
 
-TEST(Observe, ThermostatAtRateZeroStandsInNobodysWay) {
+TEST(Observe, AThermostatAtRateZeroAllowsEveryObservable) {
   EXPECT_NO_THROW((void)observed("free_flight = true\n[thermostat]\ntemperature = 1.0\nrate = 0.0"));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes in text for the tests of this room: a small valid one, and ways to change it.
+// Scenes in text for the tests of this folder: a small valid one, and ways to change it.
 
 #include <carom/scene.hpp>
 

@@ -190,7 +190,7 @@ TEST(CollisionRecordsOfRuns, WhatAsksForRoomMayThrow) {
   scene.run.collisions = 1'000;
   Simulation simulation = make_simulation(scene);
   RunHooks hooks;
-  hooks.collisions = [](const CollisionRecords&) { ADD_FAILURE() << "after the first error nobody is told"; };
+  hooks.collisions = [](const CollisionRecords&) { ADD_FAILURE() << "after the first error the hook is not called"; };
   hooks.room_for_records = []() -> std::span<CollisionRecord> { throw std::runtime_error("no room"); };
   EXPECT_THROW(run_schedule(simulation, hooks), std::runtime_error);
   EXPECT_TRUE(simulation.check_invariants().empty());
@@ -220,7 +220,7 @@ TEST(CollisionRecordsOfRuns, WhatAListenerThrowsComesOutBetweenTwoEvents) {
   EXPECT_EQ(calls, 1);
   EXPECT_TRUE(simulation.check_invariants().empty());
   simulation.reset_clock();
-  EXPECT_EQ(run_schedule(simulation).stopped, StopReason::collisions) << "nobody listens any more";
+  EXPECT_EQ(run_schedule(simulation).stopped, StopReason::collisions) << "the hook is not called any more";
 }
 
 TEST(CollisionRecordsOfRuns, AreNotToBeHadWhereVelocitiesDoNotTellEverything) {

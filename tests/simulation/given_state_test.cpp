@@ -85,7 +85,7 @@ TEST(GivenState, WhatEffectsGoOnFromIsFinite) {
     State state = good;
     spoil(state);
     EXPECT_THROW(make_simulation(affected, state), std::invalid_argument);
-    EXPECT_NO_THROW(make_simulation(scene, state)) << "nobody asks for it";
+    EXPECT_NO_THROW(make_simulation(scene, state)) << "it is not asked for";
   };
   refused([](Scene& s) { s.effects.collision.roughness = 0.5; }, [&](State& state) { state.spins[2] = nan; });
   refused([](Scene& s) { s.effects.growth = Growth{.rate = 0.1, .packing_fraction = 0.5}; },

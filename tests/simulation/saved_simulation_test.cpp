@@ -1,6 +1,6 @@
-// A saved simulation is checked before it is used: what kind of file it is, who wrote it, with which scene, whether all of it is
-// there. A simulation that was changed goes on to the same bits, from the scene that it was made with and from the one that it
-// has.
+// A saved simulation is checked before it is used: what kind of file it is, which version wrote it, with which scene, whether all
+// of it is there. A simulation that was changed goes on to the same bits, from the scene that it was made with and from the one
+// that it has.
 
 #include "support/effect_scenes.hpp"
 #include "support/refusal.hpp"

@@ -1,5 +1,5 @@
 // The changes of a scene are made at their times, between events. The twin of a scene with changes is a simulation to which a
-// program makes them by set_effects() and set_velocities(): both end in the same bits, whoever drives the run, wherever it pauses
+// program makes them by set_effects() and set_velocities(): both end in the same bits, whatever drives the run, wherever it pauses
 // or is saved, and on however many threads.
 
 #include "live/live_run.hpp"
@@ -103,7 +103,7 @@ TEST(SceneChanges, AreWhatAProgramWouldDo) {
   }
 }
 
-TEST(SceneChanges, DoNotDependOnWhoRunsAndWhereItPauses) {
+TEST(SceneChanges, DoNotDependOnTheCallerAndItsPauses) {
   const Scene scene = parse_scene(gas(some_changes));
   for (const char* engine : engines_with_effects) {
     const std::string twin = hash_by_hand(scene, engine);

@@ -1,4 +1,4 @@
-// Runs that go nowhere end, and say who holds them up; starts that overlap run where they are told to.
+// Runs that go nowhere end, and name the disks that stop them; starts that overlap run where they are told to.
 
 #include "support/refusal.hpp"
 #include "support/scenes.hpp"
@@ -187,7 +187,7 @@ Scene growing_lattice() {
   return scene;
 }
 
-TEST(EnginesStandstill, EndsTheRunAtTheSameEventWhoeverLooksOn) {
+TEST(EnginesStandstill, EndsTheRunAtTheSameEventHoweverItIsSampled) {
   const Scene scene = growing_lattice();
   Simulation alone = make_simulation(scene);
   EXPECT_EQ(alone.run_until(5.0), StopReason::jammed);
@@ -236,7 +236,7 @@ TEST(EnginesStandstill, BetweenWallsThatCloseInIsTheSameOnSeveralCores) {
 }
 
 /// A schedule goes on for a thousand collisions, to name the disks.
-TEST(EnginesStandstill, EndsAScheduleAtTheSameEventWhoeverLooksOn) {
+TEST(EnginesStandstill, EndsAScheduleAtTheSameEventHoweverItIsSampled) {
   Scene scene = growing_lattice();
   const auto end = [&](const Threads& threads, const RunHooks& hooks) {
     Simulation simulation = make_simulation(scene);
@@ -258,7 +258,7 @@ TEST(EnginesStandstill, EndsAScheduleAtTheSameEventWhoeverLooksOn) {
   EXPECT_EQ(end({}, {}), alone);
 }
 
-TEST(EnginesStandstill, OfAGasThatHeatsUpEndsAtTheSameEventWhoeverLooksOn) {
+TEST(EnginesStandstill, OfAGasThatHeatsUpEndsAtTheSameEventHoweverItIsSampled) {
   Scene scene = gas_scene(16, 0.4, Boundary::periodic);
   scene.species.front().positions = HexagonalLattice{};
   scene.effects.collision.rule = CollisionRule::reversal;
@@ -295,10 +295,10 @@ TEST(EnginesStandstill, DisksAtRestHaveTimeForEverything) {
   Scene scene = scene_of_placed(box_of(10.0, 10.0, Boundary::walls), {{{5.0, 5.0}, {0.0, 0.0}}});
   scene.effects.walls[1].oscillation = Oscillation{WaveForm::sine, 0.5, 1.0};
   Simulation simulation = make_simulation(scene);
-  EXPECT_EQ(simulation.run_until(2e7), StopReason::time) << "of a wall that vibrates and reaches nobody";
+  EXPECT_EQ(simulation.run_until(2e7), StopReason::time) << "of a wall that vibrates and reaches no disk";
 }
 
-TEST(StoppedDisks, ARunThatEndsInTimeNamesNobody) {
+TEST(StoppedDisks, ARunThatEndsInTimeNamesNoDisk) {
   Scene scene = gas_scene(4, 0.1, Boundary::walls);
   scene.run.time = 1.0;
   Simulation simulation = make_simulation(scene);

@@ -47,7 +47,7 @@ TEST(Steps, AreTheEventsOfTheLogOneByOne) {
     EXPECT_EQ(simulation.counts().events(), ran.events.size());
     EXPECT_GT(simulation.counts().obstacle, 0U);
     EXPECT_GT(simulation.counts().well, 0U);
-    EXPECT_TRUE(simulation.take_events().empty()) << "nobody has asked for a log";
+    EXPECT_TRUE(simulation.take_events().empty()) << "no log was asked for";
   }
 }
 

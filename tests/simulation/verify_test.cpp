@@ -140,7 +140,7 @@ TEST(Verify, AStartThatTouchesAnObstacleToRoundingIsNoFault) {
 }
 
 TEST(Verify, DisksThatWillHaveGrownIntoEachOtherAfterManyEpochsArePlannedThen) {
-  // All at rest: a row, and two that are several cells away from it and from each other, of which nobody leaves his own.
+  // All at rest: a row, and two that are several cells away from it and from each other, of which none leaves its own.
   std::vector<Placed> disks;
   for (int k = 0; k < 30; ++k) disks.push_back({{1.0 + 1.03125 * k, 2.0}, {0.0, 0.0}});
   disks.push_back({{8.0, 16.0}, {0.0, 0.0}});

@@ -38,7 +38,7 @@ TEST(Naive, APairFoundLessThanUDtDeepIsTurnedRoundOnce) {
 
 TEST(Naive, ADeepPairIsTurnedRoundTwiceInEveryStepWhichCancels) {
   // Half a radius deep in each other, as a third disk may have left them. Disk 0 finds disk 1: they exchange velocities and disk
-  // 0 stays where it is. Disk 1 finds disk 0: they exchange back, and disk 1 stays too. So nobody moves, whatever the velocities
+  // 0 stays where it is. Disk 1 finds disk 0: they exchange back, and disk 1 stays too. So no disk moves, whatever the velocities
   // say.
   constexpr double dt = 0.125;
   Simulation s = naive({{{-0.25, 0.0}, {-1.0, 0.0}}, {{0.25, 0.0}, {0.0, 0.0}}}, dt);

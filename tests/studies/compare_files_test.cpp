@@ -155,7 +155,7 @@ TEST_F(Points, OfAnotherStudyAreRefusedInASentence) {
   EXPECT_THAT(refusal_of("key"), HasSubstr(file()));
 }
 
-TEST_F(Points, ThatNobodyWroteAreRefusedWithTheirLine) {
+TEST_F(Points, OfAnotherOriginAreRefusedWithTheirLine) {
   for (const char* line : {R"({"run":{}})", R"({"run":{"method":7}})", R"({"cost":[]})", R"({"run":null})"}) {
     write();
     write_text(file(), text_of(file()) + line + "\n");
@@ -245,8 +245,9 @@ TEST(CompareCsv, HasOneLinePerRunAndAsManyFieldsInEach) {
   std::size_t lines = 0;
   for (; std::getline(text, line); ++lines) EXPECT_EQ(std::count(line.begin(), line.end(), ','), std::ranges::count(header, ','));
   EXPECT_EQ(lines, comparison.runs.size());
-  EXPECT_THAT(compare_csv(comparison),
-              HasSubstr("fast,0.0,1,8.0,0.0,0.001,1e-15,0.004,8e-15,NaN,10000,1.98,"));  // shortest digits that give the same bits
+  EXPECT_THAT(
+      compare_csv(comparison),
+      HasSubstr("fast,0.0,1,8.0,0.0,0.001,1e-15,0.004,8e-15,NaN,10000,1.98,"));  // shortest digits that give the same bits
 }
 
 }  // namespace

@@ -151,7 +151,7 @@ TEST_F(Audit, PairsMeetAcrossAPeriodicEdgeAndNotAcrossAWall) {
   quiet_step({{0.0, -7.75}, {0.0, 0.0}}, {{0.0, 7.75}, {0.0, 0.0}});
   EXPECT_EQ(audit_.counts().deepest, 0.5);
   quiet_step({{-7.75, 0.0}, {0.0, 0.0}}, {{7.0, 0.0}, {3.0, 0.0}});
-  expect_counts(0, 2, 0, 0);  // the pair at the edge has left it; through the wall nobody is missed
+  expect_counts(0, 2, 0, 0);  // the pair at the edge has left it; through the wall no disk is missed
 }
 
 TEST_F(Audit, FractionsOfNothingAreZero) {
@@ -220,7 +220,8 @@ class PhysicsIsolatedPair : public ::testing::TestWithParam<double> {
       const double g = std::sqrt(2.0) * std::hypot(normal(bits), normal(bits), normal(bits));
       const double b = even(bits), c = std::sqrt(1.0 - b * b), until_contact = even(bits) * step;
       const State start = system_of(scene.box, {{{0.0, 0.0}, {0.0, 0.0}}, {{c + g * until_contact, b}, {-g, 0.0}}}).state;
-      // The first step after contact is the only one that can find it: whoever approaches no longer then is apart one step later.
+      // The first step after contact is the only one that can find it: a disk that approaches no longer then is apart one step
+      // later.
       const StepCounts counts = audit(scene, start, {method, step}, 3.0 * step, 1e9, {});
       EXPECT_EQ(counts.found + counts.spurious + counts.missed, 1U) << "g = " << g << ", b = " << b;
       if (counts.missed > 0) ++outcome.missed;

@@ -66,7 +66,7 @@ struct Billiard {
     bounce(meeting.obstacle);
     return meeting;
   }
-  /// From the nearest obstacle's edge to the disk's, of `count` obstacles; negative where they overlap.
+  /// From the nearest obstacle's edge to the disk's, of `list`; negative where they overlap.
   [[nodiscard]] double clearance(const std::vector<Obstacle>& list) const {
     double least = infinity<double>;
     for (std::size_t o = 0; o < list.size(); ++o) {

@@ -59,8 +59,8 @@ inline std::int32_t below(Random& random, std::int32_t n) {
 /// Draws the time of a disk's next event, not before `now`.
 using Draw = std::function<double(Random& random, double now)>;
 
-/// What orders events at one time: who they belong to, the first or the last disk first, or something that changes with every
-/// event, as the ids of two partners do.
+/// What orders events at one time: the disk they belong to, the first or the last disk first, or something that changes with
+/// every event, as the ids of two partners do.
 enum class Ranks { of_disks, of_disks_falling, of_events };
 
 struct Trial {

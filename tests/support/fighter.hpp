@@ -1,5 +1,5 @@
 #pragma once
-// One engine on a scene that nobody has looked at before: it runs and is watched. Do its invariants hold, does the clock go on,
+// One engine on a random scene: it runs and is watched. Do its invariants hold, does the clock go on,
 // are momentum and energy accounted for?
 
 #include "core/real.hpp"

@@ -20,7 +20,7 @@
 namespace carom::test {
 
 /// Boxes of letters, one from each rank to each.
-class PostOffice {
+class Mailboxes {
  public:
   void send(int from, int to, std::string letter) {
     const std::lock_guard lock(mutex_);
@@ -44,7 +44,7 @@ class PostOffice {
 
 class MemoryRanks final : public carom::Ranks {
  public:
-  MemoryRanks(PostOffice& post, int rank, int size) : post_(post), rank_(rank), size_(size) {}
+  MemoryRanks(Mailboxes& post, int rank, int size) : post_(post), rank_(rank), size_(size) {}
 
   [[nodiscard]] int rank() const override { return rank_; }
   [[nodiscard]] int size() const override { return size_; }
@@ -69,7 +69,7 @@ class MemoryRanks final : public carom::Ranks {
   std::uint64_t exchanges = 0;
 
  private:
-  PostOffice& post_;
+  Mailboxes& post_;
   int rank_, size_;
 };
 
@@ -91,7 +91,7 @@ class ServingRanks {
   [[nodiscard]] MemoryRanks& first() { return *ranks_.front(); }
 
  private:
-  PostOffice post_;
+  Mailboxes post_;
   std::vector<std::unique_ptr<MemoryRanks>> ranks_;
   std::vector<std::thread> threads_;
 };

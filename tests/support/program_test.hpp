@@ -33,7 +33,7 @@ class ProgramTest : public ::testing::Test {
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1);
   }
   [[nodiscard]] std::filesystem::path file(const std::string& name) const { return directory_.path() / name; }
-  /// The summary of a run directory, without what the clock on the wall says, and who ran what.
+  /// The summary of a run directory, without what the clock on the wall says, and what ran it.
   [[nodiscard]] nlohmann::json results(const std::string& directory) const {
     auto found = nlohmann::json::parse(text_of(file(directory) / "summary.json"));
     for (const char* key : {"wall_seconds", "loop_seconds", "collisions_per_second", "command_line", "cores"}) found.erase(key);

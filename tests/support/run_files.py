@@ -4,7 +4,7 @@ import json
 
 import h5py
 
-# What the clock on the wall says, and who ran what.
+# What the clock on the wall says, and what ran it.
 NOT_COMPARED = ("wall_seconds", "loop_seconds", "collisions_per_second", "cores", "command_line")
 
 

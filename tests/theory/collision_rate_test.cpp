@@ -31,7 +31,7 @@ TEST(CollisionRate, DoesNotKnowHowDisksOfOneKindAreCounted) {
   EXPECT_NEAR(theory::collision_rate(three, 1.0), theory::collision_rate(one, 1.0), 1e-12);
 }
 
-TEST(CollisionRate, IsZeroWhereNobodyIs) {
+TEST(CollisionRate, IsZeroWithoutDisks) {
   EXPECT_EQ(theory::collision_rate({}, 1.0), 0.0);
   EXPECT_EQ(theory::collision_rate(std::vector<Component>{{0.0, 0.5, 1.0}}, 1.0), 0.0);
 }
