@@ -2,7 +2,7 @@
 
 #include "io/csv_writer.hpp"
 
-#include "text/csv_cell.hpp"
+#include "io/csv_cell.hpp"
 
 #include <fmt/format.h>
 

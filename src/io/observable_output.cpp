@@ -1,7 +1,7 @@
 #include "io/observable_output.hpp"
 
+#include "io/csv_cell.hpp"
 #include "io/text_file.hpp"
-#include "text/csv_cell.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // The changes of a scene are made at their times, between events. The twin of a scene with changes is a simulation to which a
-// program makes them by set_effects() and set_velocities(): both end in the same bits, whatever drives the run, wherever it pauses
-// or is saved, and on however many threads.
+// program makes them by set_effects() and set_velocities(): both end in the same bits, whatever drives the run, wherever it
+// pauses or is saved, and on however many threads.
 
 #include "live/live_run.hpp"
 #include "observe/mechanics.hpp"

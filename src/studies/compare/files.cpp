@@ -1,9 +1,9 @@
 #include "studies/compare/files.hpp"
 
+#include "io/csv_cell.hpp"
 #include "io/json.hpp"
 #include "studies/compare/answers.hpp"
 #include "studies/horizon/json.hpp"
-#include "text/csv_cell.hpp"
 
 #include <carom/version.hpp>
 

@@ -1,9 +1,9 @@
 #include "studies/sweep/seed_tables.hpp"
 
+#include "io/csv_cell.hpp"
 #include "io/observable_output.hpp"
 #include "observe/table_column.hpp"
 #include "studies/sweep/numbers.hpp"
-#include "text/csv_cell.hpp"
 #include "text/number_in.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // Numbers of tables tell their type, and read back as they were.
 
-#include "text/csv_cell.hpp"
+#include "io/csv_cell.hpp"
 
 #include <gtest/gtest.h>
 
