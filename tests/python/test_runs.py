@@ -53,7 +53,7 @@ def test_a_run_without_files_has_the_numbers_of_one_with_files(tmp_path, gas):
     assert without_clocks(bare.summary) == without_clocks(written.summary)
     assert np.array_equal(bare.observables["radial_distribution"].table["g"], written.observables["radial_distribution"].table["g"])
     assert bare.observables["pressure"]["Z"] == written.observables["pressure"]["Z"]
-    assert written.files == ["trajectory.h5md", "summary.json"]
+    assert written.files == ["trajectory.h5md", "observe_radial_distribution.csv", "summary.json"]
     assert bare.files == [] and bare.directory is None
     stored = carom.open_run(tmp_path / "run").frames
     assert np.array_equal(stored.positions, bare.frames.positions)

@@ -14,6 +14,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace carom::test {
@@ -82,7 +83,7 @@ struct PlainGas {
 };
 
 TEST(RunTheory, OfABoxThatIsWideEnoughIsGiven) {
-  const PlainGas wide(4.5), narrow(3.5);
+  const PlainGas wide(7.0), narrow(6.0);
   for (const char* name : {"Z", "Z_rate"}) {
     EXPECT_TRUE(wide.of("pressure", name)) << name;
     EXPECT_FALSE(narrow.of("pressure", name)) << name;
@@ -102,6 +103,102 @@ TEST(RunTheory, OfSpeedsAndPathsIsThatOfDisksWhichTogetherAreAtRest) {
   for (const PlainGas* gas : {&at_rest, &moving}) {
     EXPECT_TRUE(gas->of("free_flight", "mean_free_time")) << "times are those of any common motion";
     EXPECT_TRUE(gas->of("pressure", "Z"));
+  }
+}
+
+/// The theory for a run of equal disks of radius 0.5 in a box 20 wide and 20 high, whose kT is 1.
+struct Gas {
+  Gas(std::int64_t count, const std::string& boundary, const std::string& effects)
+      : scene(parse_scene(fmt::format(
+            "[box]\nx = [0.0, 20.0]\ny = [0.0, 20.0]\nboundary = {}\n[[disks]]\ncount = {}\nradius = 0.5\nmass = 1.0\n"
+            "positions = \"hexagonal\"\nvelocities = {{ temperature = 1.0 }}\n[collision]\nrule = \"specular\"\n"
+            "[run]\ntime = 1.0\n{}",
+            boundary, count, effects))),
+        disks(all_disks(scene)) {
+    report.disks = count;
+    report.packing_fraction = scene.packing_fraction();
+    report.temperature_mean = 1.0;
+    report.measured = true;
+  }
+  [[nodiscard]] std::vector<TheoryCurve> curves(const std::string& table, const std::string& axis) const {
+    const Table measured{.name = table, .columns = {{axis, "", {5.0, 10.0, 20.0}}}};
+    return RunTheory(report, TheorySource{scene, disks, 1}).curves(measured, "density");
+  }
+  /// Returns the names of the laws of speeds, one after the other.
+  [[nodiscard]] std::string law_of_speeds() const {
+    std::string names;
+    for (const TheoryCurve& curve : curves("speeds", "speed")) names += curve.name;
+    return names;
+  }
+
+  Scene scene;
+  Disks disks;
+  RunReport report;
+};
+
+const std::string walls = "\"walls\"", channel = "{ x = \"periodic\", y = \"walls\" }", periodic = "\"periodic\"";
+const std::string weight = "[gravity]\nacceleration = [0.0, -0.1]\n";
+
+TEST(TheoryOfDensity, UnderGravityHoldsAllDisksInTheWholeWidthOfAStrip) {
+  for (const std::string& boundary : {walls, channel}) {
+    const std::vector<TheoryCurve> curves = Gas(60, boundary, weight).curves("density_profile", "y");
+    ASSERT_EQ(curves.size(), 1U) << boundary;
+    double disks = 0.0;  // a density is per area of strips 20 wide, at equal steps of the 19 that centres can reach
+    for (const double density : curves[0].y) disks += density * 20.0 * 19.0 / static_cast<double>(curves[0].y.size());
+    EXPECT_NEAR(disks, 60.0, 0.01) << boundary;
+  }
+}
+
+TEST(TheoryOfDensity, IsGivenOnlyForHardDisksThatFallAlongOneAxis) {
+  EXPECT_TRUE(Gas(60, walls, "[gravity]\nacceleration = [0.2, -0.1]\n").curves("density_profile", "y").empty());
+  EXPECT_TRUE(Gas(60, channel, "[gravity]\nacceleration = [0.2, -0.1]\n").curves("density_profile", "y").empty());
+  EXPECT_TRUE(Gas(60, walls, weight + "[square_well]\nwidth = 1.5\ndepth = 0.6\n").curves("density_profile", "y").empty());
+}
+
+TEST(TheoryOfSpeeds, IsTheLawOfTheEnergyAndMomentumThatAreKept) {
+  EXPECT_EQ(Gas(5, periodic, "").law_of_speeds(), "law for 5 disks");
+  EXPECT_EQ(Gas(5, walls, "").law_of_speeds(), "law for 5 disks");
+  EXPECT_EQ(Gas(5, periodic, "[tumbling]\nrate = 1.0\n").law_of_speeds(), "law for 5 disks") << "tumbles keep speeds";
+  EXPECT_EQ(Gas(5, walls, weight).law_of_speeds(), "Maxwell and Boltzmann") << "weight takes energy and gives it back";
+  EXPECT_EQ(Gas(5, channel, "").law_of_speeds(), "") << "their momentum along one axis is kept";
+  EXPECT_EQ(Gas(100, channel, "").law_of_speeds(), "Maxwell and Boltzmann");
+  EXPECT_EQ(Gas(100, channel, "[gravity]\nacceleration = [0.1, 0.0]\n").law_of_speeds(), "") << "they flow";
+}
+
+/// <v^2> of a disk of many is 2 kT / m (1 - m / M) where momentum is conserved; half of that is missing where it is along one
+/// axis.
+TEST(TheoryOfSpeeds, HasWhatAConservedMomentumLeaves) {
+  const std::string well = "[square_well]\nwidth = 1.5\ndepth = 0.2\n";
+  for (const auto& [boundary, missing] : {std::pair{periodic, 1.0}, std::pair{channel, 0.5}, std::pair{walls, 0.0}}) {
+    const Gas gas(4, boundary, well);
+    const Table speeds{.name = "speeds", .columns = {{"speed", "", {8.0}}}};  // beyond is e^-32 of the disks
+    const std::vector<TheoryCurve> curves =
+        RunTheory(gas.report, TheorySource{gas.scene, gas.disks, 1}).curves(speeds, "density");
+    ASSERT_EQ(curves.size(), 1U);
+    double square = 0.0;
+    const std::vector<double>&v = curves[0].x, &density = curves[0].y;
+    for (std::size_t k = 0; k < v.size(); ++k) square += v[k] * v[k] * density[k] * (v[1] - v[0]);
+    EXPECT_NEAR(square, 2.0 * (1.0 - missing / 4.0), 1e-3) << boundary;
+  }
+}
+
+TEST(TheoryOfZ, OfADenseFluidIsThatOfManyDisks) {
+  RunReport report;
+  for (const std::int64_t disks : {144, 2000}) {
+    const Scene scene = parse_scene(fmt::format(
+        "[box]\naspect = 1.1547\nboundary = \"periodic\"\n[[disks]]\ncount = {}\nradius = 0.5\nmass = 1.0\npacking_fraction = "
+        "0.68\npositions = \"hexagonal\"\nvelocities = {{ temperature = 1.0 }}\n[collision]\nrule = \"specular\"\n"
+        "[run]\ntime = 1.0\n",
+        disks));
+    const Disks all = all_disks(scene);
+    report.disks = disks;
+    report.packing_fraction = scene.packing_fraction();
+    report.temperature_mean = 1.0;
+    report.measured = true;
+    const RunTheory theory(report, TheorySource{scene, all, 1});
+    EXPECT_EQ(theory.Z().has_value(), disks == 2000);
+    EXPECT_EQ(theory.of("contact_values", "g").has_value(), disks == 2000);
+    EXPECT_EQ(theory.why_not_Z().find("from 2000 disks on") != std::string::npos, disks < 2000);
   }
 }
 
