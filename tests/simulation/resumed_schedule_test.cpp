@@ -136,6 +136,7 @@ void expect_the_same_resumed_at(int moment, const Scene& scene) {
   EXPECT_EQ(after.result.stopped, expected.result.stopped);
   EXPECT_EQ(after.result.samples, expected.result.samples);
   expect_same_measurements(after.measured, expected.measured);
+  for (std::size_t m = 0; m < after.measured.size(); ++m) EXPECT_EQ(after.measured[m].note, expected.measured[m].note);
 }
 
 TEST_P(ResumedSchedule, TellsTheSameAsOneThatWasNeverStopped) { expect_the_same_resumed_at(GetParam(), parse_scene(fluid)); }
@@ -175,6 +176,74 @@ TEST_P(ResumedSchedule, TheSameWithSamplesInBlocksAndCounted) {
   expect_the_same_resumed_at(GetParam(), scene);
   scene.run.sample_log.reset();
   scene.run.sample_every_collisions = 700;
+  expect_the_same_resumed_at(GetParam(), scene);
+}
+
+TEST_P(ResumedSchedule, TheSameOfFieldsAndFluxesBesideAThermalWall) {
+  // The left wall alone exchanges energy, and momentum along itself. Spins are followed from collision to collision.
+  const Scene scene = parse_scene(R"(
+[box]
+x = [0.0, 10.0]
+y = [0.0, 10.0]
+boundary = { x = "walls", y = "periodic" }
+[[disks]]
+count = 60
+radius = 0.4
+mass = 1.0
+positions = "random"
+velocities = { temperature = 1.0 }
+[collision]
+rule = "specular"
+roughness = 1.0
+[walls]
+left = { temperature = 1.5, tangential_velocity = 0.5 }
+[run]
+time = 40.0
+sample_every = 0.7
+[observe]
+fields = { every = 0.3, cells = [4, 2] }
+wall_fluxes = { every = 0.3 }
+work = { every = 0.3 }
+)");
+  expect_the_same_resumed_at(GetParam(), scene);
+}
+
+TEST_P(ResumedSchedule, TheSameBehindAWallThatRunsAway) {
+  // Fields and profile cover where the wall will be, and count the disks that follow it beyond.
+  const Scene scene = parse_scene(R"(
+[box]
+x = [0.0, 10.0]
+y = [0.0, 10.0]
+boundary = "walls"
+[[disks]]
+count = 60
+radius = 0.4
+mass = 1.0
+positions = "random"
+velocities = { temperature = 1.0 }
+[collision]
+rule = "specular"
+[walls]
+left = { velocity = -0.05 }
+right = { mass = 20.0, load = 0.2 }
+[run]
+time = 40.0
+sample_every = 0.7
+[observe]
+fields = { every = 0.3, cells = [4, 2] }
+density_profile = { every = 0.3, axis = "x", bins = 10 }
+wall_fluxes = { every = 0.3 }
+work = { every = 0.3 }
+)");
+  expect_the_same_resumed_at(GetParam(), scene);
+}
+
+TEST_P(ResumedSchedule, TheSameWhereDragSlowsDisks) {
+  // What drag takes is the energy since the start that nothing else explains.
+  Scene scene = parse_scene(fluid);
+  scene.effects.drag = Drag{.rate = 0.01};
+  scene.run.equilibrate.reset();
+  scene.observe = {{.name = "work", .every = 0.3}};
   expect_the_same_resumed_at(GetParam(), scene);
 }
 
