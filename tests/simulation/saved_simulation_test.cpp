@@ -101,6 +101,44 @@ TEST(SavedSimulation, KnowsDisksThatHaveGrown) {
   expect_same_way(simulation, back);
 }
 
+TEST(SavedSimulation, KnowsEveryRadiusOfAListThatHasGrown) {
+  Scene scene = gas_scene(24, 0.2, Boundary::periodic);
+  Species& species = scene.species.front();
+  species.radii.assign(24, species.radius);
+  species.radii.back() = 0.5 * species.radius;
+  scene.effects.growth = Growth{.rate = 0.05};
+  Simulation simulation = make_simulation(scene);
+  simulation.run_until(2.0);
+  Effects effects = scene.effects;
+  effects.growth.reset();
+  simulation.set_effects(effects);
+  EXPECT_DOUBLE_EQ(simulation.disks().radius.back(), 1.1 * scene.species.front().radii.back());
+  Simulation back = restored(scene, saved(simulation));
+  EXPECT_EQ(back.disks().radius, simulation.disks().radius);
+  expect_same_way(simulation, back);
+}
+
+TEST(SavedSimulation, KnowsWhereEveryWallHasStopped) {
+  const Scene scene = walled_gas();
+  Simulation simulation = make_simulation(scene);
+  Effects effects = scene.effects;
+  effects.walls[0].velocity = -0.25;  // outward, as the others are
+  effects.walls[1].velocity = 0.5;
+  effects.walls[2].velocity = -0.125;
+  effects.walls[3].velocity = 0.75;
+  simulation.set_effects(effects);
+  simulation.run_until(1.0);
+  for (WallProperties& wall : effects.walls) wall = {};
+  simulation.set_effects(effects);
+  Simulation back = restored(scene, saved(simulation));
+  const Box& box = back.scene().box;
+  EXPECT_NEAR(box.lower.x(), scene.box.lower.x() - 0.25, 1e-12);
+  EXPECT_NEAR(box.upper.x(), scene.box.upper.x() + 0.5, 1e-12);
+  EXPECT_NEAR(box.lower.y(), scene.box.lower.y() - 0.125, 1e-12);
+  EXPECT_NEAR(box.upper.y(), scene.box.upper.y() + 0.75, 1e-12);
+  expect_same_way(simulation, back);
+}
+
 TEST(SavedSimulation, WantsItsCollisionRuleAgain) {
   const auto back_and_forth = [](CollidingPair& contact) { std::swap(contact.velocity, contact.partner_velocity); };
   Simulation simulation = make_simulation(walled_gas());
