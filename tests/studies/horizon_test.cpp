@@ -345,6 +345,19 @@ TEST(LogComparison, EventsAtOneInstantMayComeInAnyOrder) {
   EXPECT_FALSE(logs.found());
 }
 
+TEST(LogComparison, TimesThatDifferInTheirRemaindersAreNotOneInstant) {
+  const auto later = [](Event event) {
+    event.time_remainder = 0x1p-60;
+    return event;
+  };
+  LogComparison logs;
+  logs.add(std::vector{later(event(1.0, 2, 3)), event(1.0, 0, 1)}, std::vector{event(1.0, 0, 1), later(event(1.0, 2, 3))});
+  ASSERT_TRUE(logs.found());
+  EXPECT_EQ(logs.found()->index, 0U);
+  EXPECT_EQ(logs.found()->disk, 0);
+  EXPECT_EQ(logs.found()->other_disk, 2);
+}
+
 // ------------------------------------------------------------------------------------------------------ e-foldings
 
 /// The mean of the values, within 4 standard errors and `beyond_chance`.
