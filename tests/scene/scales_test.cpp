@@ -74,6 +74,18 @@ TEST(Scales, RangesAreThoseOfAllDisks) {
   EXPECT_THAT(refusal_of("walls", by_collisions, {"walls.top={ temperature = 1e200 }", "disks.0.mass=1e140"}), IsEmpty());
 }
 
+TEST(Scales, RangesAreNotThoseOfSpeciesWithoutDisks) {
+  const auto beside = [](int count) {
+    return fmt::format(
+        "disks=[{{ count = 5, radius = 0.03125, mass = 1.0, positions = \"random\", velocities = {{ speed = 1.0 }} }}, "
+        "{{ count = {}, radius = 0.03125, mass = 1e-140, positions = \"random\", velocities = {{ speed = 1.0 }} }}]",
+        count);
+  };
+  const std::string hot = "walls.top={ temperature = 1e200 }";
+  EXPECT_THAT(refusal_of("walls", by_collisions, {beside(0), hot}), IsEmpty());
+  EXPECT_THAT(refusal_of("walls", by_collisions, {beside(1), hot}), HasSubstr("must stay below 1e+150"));
+}
+
 TEST(Scales, RunsThatTimeAloneEndsCanBeComputed) {
   const char* passes = "and more than 2^53 times cannot be computed";
   const double most = 0x1p53 * 2.0 / 4.0;  // passes of a box of 2 until time 4
@@ -91,6 +103,7 @@ TEST(Scales, WallsThatRunAwayStayWhereDoublesTellTheDisks) {
   const double reach = 1e-3 * 0x1p52 / 32.0;
   expect_most("walls", for_a_while, "walls.top={{ velocity = {:e} }}", reach / 4.0, far);
   expect_most("walls", for_a_while, "walls.left={{ velocity = -{:e} }}", reach / 4.0, far);
+  expect_most("walls", "time = 4.0\nequilibrate = { time = 12.0 }", "walls.top={{ velocity = {:e} }}", reach / 16.0, far);
   expect_most("walls", by_collisions, "walls.top={{ velocity = {:e} }}", reach * 32.0,
               far);  // a disk moves by its radius in 1/32
 }
