@@ -365,6 +365,8 @@ TEST(Fields, CoverAllThatWallsReach) {
   expect_reach(behind_a_wall(sine("0.0"), ""), 8.4);
   expect_reach(behind_a_wall(sine("0.25"), ""), 8.8);
   expect_reach(behind_a_wall(sine("0.75"), ""), 8.0);
+  // A change of anything else lets it vibrate on.
+  expect_reach(behind_a_wall(sine("0.25"), change(1.0, "restitution=0.5")), 8.8);
   // Where it is after equilibrating, the outermost position is the same.
   expect_reach(behind_a_wall(sine("0.25"), "", "time = 2.0\nequilibrate = { time = 1.0 }"), 8.8);
   // A wall that goes 1.5 outward before the measured run, and 1 in it.
