@@ -71,6 +71,16 @@ std::string refusal_to_open(const fs::path& directory) {
   return refusal<OutputError>([&] { (void)Checkpoint(directory); });
 }
 
+TEST(Checkpoint, WhoseWritingWasBrokenOffLeavesNothing) {
+  const TemporaryDirectory temporary;
+  const RunDirectory directory(temporary.path(), false);
+  write(directory, 3.25, "first");
+  EXPECT_THROW(write_checkpoint(directory, facts_at(4.5), two_disks(), {{"part", [](std::ostream&) { throw 0; }}}), int);
+  EXPECT_FALSE(fs::exists(directory.partial_name(checkpoint_name)));
+  EXPECT_FALSE(fs::exists(directory.final_name(previous_checkpoint_name)));
+  EXPECT_EQ(Checkpoint(temporary.path()).facts().time, 3.25);
+}
+
 TEST(Checkpoint, HoldsWhatWasWritten) {
   const TemporaryDirectory temporary;
   write(RunDirectory(temporary.path(), false), 3.25, long_part);
