@@ -33,6 +33,9 @@ double energy_of_disks(const Simulation& simulation) {
   energy += 0.25 * 2.0 * std::pow(0.4 * state.scale, 2) * state.spins.squaredNorm();
   if (const std::optional<SquareWell>& well = simulation.scene().effects.square_well)
     energy -= well->depth * static_cast<double>(state.bonds);
+  const std::vector<PotentialStep> steps =
+      simulation.scene().effects.stepped_potential ? simulation.scene().effects.potential_steps() : std::vector<PotentialStep>();
+  for (std::size_t k = 0; k < steps.size(); ++k) energy += steps[k].energy * static_cast<double>(state.pairs_in_steps.at(k));
   return energy;
 }
 
@@ -208,6 +211,12 @@ TEST(Work, OfAChangeIsTheEnergyThatItGives) {
   const Observed deepened = observed(well + "[[changes]]\ntime = 3.3\nset = [\"square_well.depth=3\"]\n");
   expect_sum(deepened);
   EXPECT_LT(deepened.numbers.at("work_changes"), -0.5);
+  const Observed stepped =
+      observed(specular +
+               "[stepped_potential]\nsteps = [{ width = 1.5, energy = -0.5 }]\n[[changes]]\ntime = 3.3\nset = "
+               "[\"stepped_potential.steps=[{ width = 1.5, energy = -3 }]\"]\n");
+  expect_sum(stepped);
+  EXPECT_DOUBLE_EQ(stepped.numbers.at("work_changes"), deepened.numbers.at("work_changes")) << "the same well";
   expect_sum(observed(well + "[thermostat]\ntemperature = 2\nrate = 0.5\n"
                              "[[changes]]\ntime = 3.3\nset = [\"thermostat.temperature=0.5\"]\n"));
   expect_sum(observed("[collision]\nrule = \"specular\"\nroughness = 0.5\n[[changes]]\ntime = 3.3\nscale_velocities = 0.5\n"));
