@@ -44,6 +44,22 @@ TEST(MeanOfTables, HasTheScatterOfSeedsInPlaceOfTheirErrors) {
   EXPECT_DOUBLE_EQ(mean.columns[3].values[2], 1.0) << "of two numbers half their distance";
 }
 
+TEST(MeanOfTables, HasTheRowsThatAllHave) {
+  const Table mean = mean_of_tables({seed_table({1, 2, 3}, {1, 5, 6}), seed_table({1, 2}, {3, 7})});
+  EXPECT_THAT(mean.columns[0].values, ElementsAre(1, 2));
+  EXPECT_THAT(mean.columns[2].values, ElementsAre(2, 6));
+}
+
+TEST(MeanOfTables, ANumberThatOneSeedHasNotDiffersFromThatOfAnother) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const auto one = [](double x) { return Table{.name = "t", .columns = {{"lag", "time", {1}}, {"x", "", {x}}}}; };
+  const Table mean = mean_of_tables({one(2.0), one(none)});
+  ASSERT_EQ(mean.columns.size(), 3U);
+  EXPECT_THAT(mean.columns[1].values, ElementsAre(2));
+  EXPECT_EQ(mean.columns[2].name, "x_error");
+  EXPECT_EQ(mean_of_tables({one(none), one(none)}).columns.size(), 2U) << "the same in all, and without an error";
+}
+
 TEST(ValueAt, IsOnAStraightLineBetweenTheRowsAround) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   const Table table = seed_table({1, 2, 4, 8}, {1, 5, none, 7});
@@ -134,6 +150,19 @@ TEST(SeedTables, OfAPointAreThoseOfItsRuns) {
       if (const Plot* plot = std::get_if<Plot>(&block); plot != nullptr && plot->title == "msd: msd")
         drawn = plot->series.size() == 1;
   EXPECT_TRUE(drawn);
+}
+
+TEST(SeedTables, NeedTheTableOfTwoSeeds) {
+  const SweepFiles files;
+  const Sweep sweep = files.load("scene = \"gas.toml\"\nseeds = 2\n");
+  const fs::path out = files.directory().path() / "out";
+  SweepResults results;
+  for (std::size_t run = 0; run < sweep.run_count(); ++run) {
+    results.runs.push_back({.state = RunState::finished});
+    fs::create_directories(out / sweep.directory_of(run));
+  }
+  write_text(out / sweep.directory_of(0) / "observe_x.csv", "# averages over time; units: time, 1\nlag,x\n0.5,1\n");
+  EXPECT_THAT(seed_tables_of(sweep, results, out), IsEmpty());
 }
 
 /// Averages of fields in so many cells, of which each is the number of the cell.
