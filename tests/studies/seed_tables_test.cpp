@@ -14,6 +14,7 @@
 #include <limits>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <variant>
 
 namespace carom::test {
@@ -53,10 +54,12 @@ TEST(MeanOfTables, HasTheRowsThatAllHave) {
 TEST(MeanOfTables, ANumberThatOneSeedHasNotDiffersFromThatOfAnother) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   const auto one = [](double x) { return Table{.name = "t", .columns = {{"lag", "time", {1}}, {"x", "", {x}}}}; };
-  const Table mean = mean_of_tables({one(2.0), one(none)});
-  ASSERT_EQ(mean.columns.size(), 3U);
-  EXPECT_THAT(mean.columns[1].values, ElementsAre(2));
-  EXPECT_EQ(mean.columns[2].name, "x_error");
+  for (const auto& [first, second] : {std::pair{2.0, none}, std::pair{none, 2.0}}) {
+    const Table mean = mean_of_tables({one(first), one(second)});
+    ASSERT_EQ(mean.columns.size(), 3U);
+    EXPECT_THAT(mean.columns[1].values, ElementsAre(2));
+    EXPECT_EQ(mean.columns[2].name, "x_error");
+  }
   EXPECT_EQ(mean_of_tables({one(none), one(none)}).columns.size(), 2U) << "the same in all, and without an error";
 }
 

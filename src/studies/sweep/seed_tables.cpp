@@ -46,7 +46,9 @@ std::string why_rows_differ(const Column& column, bool radii_are_drawn) {
                      column.name);
 }
 
-bool same_number(double a, double b) { return std::isnan(a) ? std::isnan(b) : a == b || !differ(a, b); }
+bool same_number(double a, double b) {
+  return std::isnan(a) || std::isnan(b) ? std::isnan(a) && std::isnan(b) : a == b || !differ(a, b);
+}
 
 /// Returns the middle of the cell that contains a place, of cells of one width whose middles are given; nothing beyond them. One
 /// cell alone is as wide as the box.
