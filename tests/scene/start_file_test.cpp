@@ -73,7 +73,7 @@ TEST(StartFile, QuotationMarksRoundAFieldDoNotCount) {
   const StartFile file = parse_start_file("\"x\", \"y\" ,\" radius\"\n1,\"2\",3\n", "s.csv");
   EXPECT_EQ(file.positions, std::vector{Eigen::Vector2d(1, 2)});
   EXPECT_THAT(file.radii, testing::ElementsAre(3));
-  const auto fails = [](const std::string& text) { return refusal_of([&] { parse_start_file(text, "s.csv"); }); };
+  const auto fails = [](const std::string& text) { return refusal<SceneError>([&] { parse_start_file(text, "s.csv"); }); };
   EXPECT_EQ(fails("x,\"y\n1,2\n"), "s.csv:1:3: there is no column \"\"y\"; did you mean y?") << "the second mark is missing";
   const std::string unnamed =
       "a column has no name; leave out a column of row numbers (pandas: index=False; R: row.names=FALSE), and name others";
@@ -82,7 +82,7 @@ TEST(StartFile, QuotationMarksRoundAFieldDoNotCount) {
 }
 
 TEST(StartFile, OfAnotherKindIsRefusedByItsFirstBytes) {
-  const auto fails = [](const std::string& bytes) { return refusal_of([&] { parse_start_file(bytes, "s.csv"); }); };
+  const auto fails = [](const std::string& bytes) { return refusal<SceneError>([&] { parse_start_file(bytes, "s.csv"); }); };
   const std::string advice = "; write the table of disks as CSV, or with numpy.save";
   EXPECT_EQ(fails("PK\x03\x04"), "s.csv: this is a zip archive, such as numpy.savez writes" + advice);
   EXPECT_EQ(fails("\x1f\x8b\x08"), "s.csv: this is packed by gzip" + advice);

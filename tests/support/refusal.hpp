@@ -1,11 +1,11 @@
 #pragma once
-// What is said where something is refused.
+// The sentence of a call that is refused.
 
 #include <string>
 
 namespace carom::test {
 
-/// what() of the Error that `action` throws; empty where it throws nothing.
+/// Returns what() of the Error that `action` throws; an empty text where it throws none.
 template <class Error, class Action>
 std::string refusal(Action&& action) {
   try {
