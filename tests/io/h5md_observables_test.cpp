@@ -14,6 +14,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace carom::test {
 namespace {
 
@@ -100,15 +102,16 @@ TEST_F(H5mdObservables, ShareTheStepsAndTimesOfTheSamples) {
   }
 }
 
-TEST_F(H5mdObservables, TheBoxFollowsWallsAndDisksWhileItsOriginStays) {
+TEST_F(H5mdObservables, TheBoxFollowsWallsAndShearWhileItsOriginStays) {
   const H5Reader file(write(scene_with_effects(2, 1), 5));
-  EXPECT_THAT(file.numbers<double>(particles + "/box", "origin", H5T_NATIVE_DOUBLE), ElementsAre(-1.0, 10.0, -0.03));
+  EXPECT_THAT(file.numbers<double>(particles + "/box", "origin", H5T_NATIVE_DOUBLE), ElementsAre(-1.0, 10.0, -2.0));
   const std::vector<double> edges = file.doubles(particles + "/box/edges/value");
   for (std::size_t k = 0; k < 5; ++k) {
     const double steps = static_cast<double>(k);
     EXPECT_EQ(edges[9 * k], 4.0);
     EXPECT_EQ(edges[9 * k + 4], 2.5 + 0.75 * steps);
-    EXPECT_DOUBLE_EQ(edges[9 * k + 8], 0.06 * (1.0 + 0.0625 * steps));
+    EXPECT_EQ(edges[9 * k + 3], state_with_effects_at(k, scene_with_effects(2, 1)).shear_displacement);
+    EXPECT_EQ(edges[9 * k + 8], std::max(4.0, 2.5 + 0.75 * steps));
   }
   EXPECT_THAT(file.doubles(particles + "/radius"), ElementsAre(0.03, 0.03, 0.01)) << "as the scene has them";
 }

@@ -89,7 +89,7 @@ TEST(RunWriter, UnwrappedPositionsContinuePastPeriodicEdgesOnly) {
   const H5Reader file(temporary.path() / "trajectory.h5md");
   EXPECT_THAT(file.doubles("/particles/trajectory/position/value"), ElementsAre(12.5, 11.0, 0.0, -6.0, 12.0, 0.0));
   EXPECT_THAT(file.ints("/particles/trajectory/image/value"), ElementsAre(3, 0, 0, -2, 0, 0));
-  EXPECT_THAT(text_of(temporary.path() / "samples.csv"), ::testing::HasSubstr("0,0,12.5,11,"));
+  EXPECT_THAT(text_of(temporary.path() / "samples.csv"), ::testing::HasSubstr("\n0.0,0,12.5,11.0,"));
 }
 
 TEST(RunWriter, AnExceptionInTheRunKeepsTheDataAsPartialFiles) {

@@ -204,7 +204,7 @@ TEST(XyzWriter, RadiiGrowAndTheLatticeFollowsTheWalls) {
   for (const bool moved : {false, true, false}) {
     std::getline(file, line);
     std::getline(file, line);
-    const std::string lattice = moved ? "Lattice=\"4 0 0 0 5.5 0 0 0 0.075\" Origin=\"-1 9 -0.0375\" "
+    const std::string lattice = moved ? "Lattice=\"4 0 0 0.5 5.5 0 0 0 0.075\" Origin=\"-1 9 -0.0375\" "
                                       : "Lattice=\"4 0 0 0 2.5 0 0 0 0.06\" Origin=\"-1 10 -0.03\" ";
     EXPECT_EQ(line.substr(0, lattice.size()), lattice);
     for (const double radius : {0.03, 0.01}) {

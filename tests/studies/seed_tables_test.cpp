@@ -142,10 +142,10 @@ TEST(SeedTables, OfAPointAreThoseOfItsRuns) {
   ASSERT_EQ(tables.size(), 1U) << "the second point has one finished seed";
   EXPECT_EQ(tables[0].seeds, 3U);
   EXPECT_THAT(tables[0].fault, IsEmpty());
-  EXPECT_EQ(
-      seed_table_csv(tables[0]),
-      "# means over 3 seeds; errors are those of independent seeds; units: time, length^2, length^2\nlag,msd,msd_error\n0.5,2," +
-          fmt::format("{}", std::sqrt(1.0 / 3.0)) + "\n1,nan,nan\n");
+  EXPECT_EQ(seed_table_csv(tables[0]),
+            "# means over 3 seeds; errors are those of independent seeds; units: time, length^2, "
+            "length^2\nlag,msd,msd_error\n0.5,2.0," +
+                fmt::format("{}", std::sqrt(1.0 / 3.0)) + "\n1.0,NaN,NaN\n");
   const Page page = sweep_page(sweep, results, tables);
   bool drawn = false;
   for (const Section& section : page.sections)
