@@ -36,7 +36,7 @@ with h5py.File(path, "r") as file:
     assert list(group["box"].attrs["boundary"]) == ["periodic", "none", "none"]
     assert isinstance(file["parameters"].attrs["scene"], str)
     assert file["parameters"].attrs["spatial_dimension"] == 2
-    edges = group["box/edges/value"]
+    edges = group["box/edges/value"][:]
     assert np.array_equal(edges[:, 0, 0], lengths[:, 0]) and np.array_equal(edges[:, 1, 1], lengths[:, 1])
     for name, observable in file["observables"].items():
         assert observable["value"].shape[0] == samples and observable["time"] == group["position/time"], name
@@ -54,8 +54,9 @@ universe = MDAnalysis.Universe(path)
 assert len(universe.atoms) == disks
 assert universe.trajectory.n_frames == samples
 for frame in universe.trajectory:
-    assert np.allclose(frame.dimensions[:2], lengths[frame.frame]) and frame.dimensions[2] > 0
-    assert np.allclose(frame.dimensions[3:], 90)
+    (x, _, _), (tilt, y, _), (_, _, z) = edges[frame.frame]
+    assert np.allclose(frame.dimensions[:3], (x, np.hypot(tilt, y), z)) and z == max(lengths[frame.frame])
+    assert np.allclose(frame.dimensions[3:], (90, 90, np.degrees(np.arctan2(y, tilt))))
     # MDAnalysis keeps single precision
     assert np.array_equal(frame.positions[:, :2], table[frame.frame, :, 2:4].astype(np.float32))
     assert np.array_equal(frame.velocities[:, :2], table[frame.frame, :, 4:6].astype(np.float32))
