@@ -28,7 +28,7 @@ class Log:
 
 
 def agree(a, b, tolerance, length, pull):
-    """Which of the first events are the same, as tests/support/duel.hpp has it: places are known to a part in 1e13 of the box, so squares
+    """Which of the first events are the same, as tests/support/engine_agreement.hpp has it: places are known to a part in 1e13 of the box, so squares
     of speeds to what a fall from there to here gives."""
     n = min(len(a), len(b))
     norms = [np.linalg.norm(v[:n], axis=1) for log in (a, b) for v in (log.velocity, log.partner_velocity)]
@@ -83,13 +83,13 @@ def engines(trial):
             scene.tables["changes"] = [change for change in scene.tables["changes"] if scene.number(change["time"]) < times[1500]]
         options += ["--set", f"run.time={times[1500]!r}"]
     chosen = Log(trial.run("engine-auto", *options, scene=scene))
-    fighters, covered = [chosen], []
+    logs, covered = [chosen], []
     for engine in ("general", "textbook", "textbook-long-double"):
         out = trial.run(f"engine-{engine}", *options, "--engine", engine, "--verify", r.choice([1, 20, 300]) if len(times) < 300 else 300, scene=scene, codes=(0, 2) if engine == "general" else (0,))
         if (out / "summary.json").exists():
             covered.append(engine)
             if engine != chosen.engine:
-                fighters.append(Log(out))
+                logs.append(Log(out))
     if r.random() < 0.1:
         trial.run("engine-textbook-quad", *options, "--engine", "textbook-quad", scene=scene)
         if scene.units == (0, 0, 0):  # floats cannot square other lengths
@@ -98,15 +98,15 @@ def engines(trial):
     if not disks or not len(chosen):
         return
     pull = pull_of(trial, edges)
-    finer = fighters[-1]
+    finer = logs[-1]
     nudged = [nudge(trial, scene, chosen, by, edges, options) for by in (4.0, -4.0)]
     others = [finer] + [log for log in nudged if log is not None]
     if len(others) < 3:
         raise Skipped("the start cannot be nudged")
     stops = min(stage["collision"].get("restitution", 1.0) for stage in scene.stages()) <= 1e-5
-    textbook = chosen if chosen.engine == "textbook" else fighters[-2]
+    textbook = chosen if chosen.engine == "textbook" else logs[-2]
     count = determined(textbook, others, disks, max(edges), pull, stops)
-    for one, other in zip(fighters, fighters[1:]):
+    for one, other in zip(logs, logs[1:]):
         same = agree(one, other, 1e-6, max(edges), pull)[:count]
         if not same.all():
             k = int(np.argmin(same))

@@ -193,7 +193,7 @@ def pull_of(trial, lengths):
 
 
 def energy_and_momentum(trial, file):
-    """As tests/support/fighter.hpp has it: every event rounds what it moves, and weights are placed to some roundings of the box."""
+    """As tests/support/watched_run.hpp has it: every event rounds what it moves, and weights are placed to some roundings of the box."""
     summary, stages, number = trial.summary, list(trial.scene.stages()), trial.scene.number
     tables = set().union(*stages)
     walls = [wall for stage in stages for wall in stage.get("walls", {}).values()]

@@ -2,7 +2,7 @@
 // are called, and in what units lengths and times are given. Random scenes with any effects.
 
 #include "support/decoded_scene.hpp"
-#include "support/duel.hpp"
+#include "support/engine_agreement.hpp"
 #include "support/scenes.hpp"
 
 #include <gtest/gtest.h>
@@ -63,15 +63,15 @@ void for_all_points(std::vector<Obstacle>& obstacles, Change&& change) {
 template <class Back>
 void expect_same_events(const Scene& scene, const Scene& changed, Back&& back) {
   const std::size_t count =
-      determined(scene, fight(scene, "textbook", events), fight(scene, "textbook-long-double", events), events);
+      determined(scene, run_watched(scene, "textbook", events), run_watched(scene, "textbook-long-double", events), events);
   for (const std::string& engine : engines_covering(scene)) {
     if (engine != "fast" && engine != "general" && engine != "textbook") continue;
-    const Fighter one = fight(scene, engine, events);
-    Fighter other = fight(changed, engine, events);
-    RC_ASSERT(other.complaint == "");
+    const WatchedRun one = run_watched(scene, engine, events);
+    WatchedRun other = run_watched(changed, engine, events);
+    RC_ASSERT(other.fault == "");
     for (Event& event : other.events) event = back(event);
     other.engine += ", changed";
-    RC_ASSERT(parting(one, other, count) == "");
+    RC_ASSERT(first_difference(one, other, count) == "");
   }
 }
 

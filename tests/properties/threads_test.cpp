@@ -112,7 +112,7 @@ bool possible(const Scene& scene, std::uint64_t most) {
   }
 }
 
-/// A few disks with hostile numbers, and any effects that domains know. Small sizes stand for bytes that are all alike.
+/// A few disks with extreme numbers, and any effects that domains know. Small sizes stand for bytes that are all alike.
 Scene any_effects() {
   const auto bytes = rc::gen::resize(100, rc::gen::container<std::vector<std::uint8_t>>(160, rc::gen::arbitrary<std::uint8_t>()));
   for (int tries = 0; tries < 100; ++tries) {

@@ -23,7 +23,7 @@ bool earlier(const Event& a, const Event& b) { return std::tie(a.time, a.lower, 
 
 Event earliest(const std::vector<Event>& events) { return *std::min_element(events.begin(), events.end(), earlier); }
 
-rc::Gen<double> hostile_time() {
+rc::Gen<double> extreme_time() {
   return rc::gen::weightedOneOf<double>(
       {{4, rc::gen::element(0.0, -0.0, 1.0, 1.0, std::nextafter(1.0, 2.0))},
        {2, rc::gen::element(infinity<double>, std::numeric_limits<double>::max(), 1e300)},
@@ -34,7 +34,7 @@ rc::Gen<double> hostile_time() {
 
 /// A plan of `disk`, with a partner, a wall or a cell crossing.
 rc::Gen<Event> plan_of(std::int32_t disk, std::int32_t disks) {
-  return rc::gen::map(rc::gen::pair(hostile_time(), rc::gen::inRange<std::int32_t>(-5, disks)),
+  return rc::gen::map(rc::gen::pair(extreme_time(), rc::gen::inRange<std::int32_t>(-5, disks)),
                       [disk](const std::pair<double, std::int32_t>& drawn) {
                         const std::int32_t partner = drawn.second == -5 ? -100 : drawn.second == disk ? -1 : drawn.second;
                         return Event{drawn.first, partner < 0 ? disk : std::min(disk, partner),

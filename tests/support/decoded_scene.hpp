@@ -1,5 +1,5 @@
 #pragma once
-// From bytes to a small scene, for property tests and fuzzing: any effects, hostile numbers. Every string of bytes is a scene,
+// From bytes to a small scene, for property tests and fuzzing: any effects, extreme numbers. Every string of bytes is a scene,
 // though the scene check may refuse it; what is refused is as much a part of the game as what runs.
 
 #include <fmt/format.h>
@@ -149,7 +149,7 @@ inline std::string decoded_effects(Bytes& bytes, const std::array<double, 4>& bo
 }
 
 /// Walls that vibrate or slide, where the scene has no others.
-inline std::string decoded_restless_walls(Bytes& bytes, const std::string& scene, double side, bool walls_x, bool walls_y) {
+inline std::string decoded_moving_walls(Bytes& bytes, const std::string& scene, double side, bool walls_x, bool walls_y) {
   std::string text;
   for (const char* wall : {"left", "right", "bottom", "top"}) {
     const bool along_x = wall[0] == 'l' || wall[0] == 'r';
@@ -221,7 +221,7 @@ inline std::string decoded_scene(std::span<const std::uint8_t> data) {
     case 4:
     case 5:
     case 6:
-      text += decoding::decoded_restless_walls(bytes, text, side, walls_x, walls_y);
+      text += decoding::decoded_moving_walls(bytes, text, side, walls_x, walls_y);
       break;
     default:
       break;

@@ -1,7 +1,7 @@
 // Random scenes with any effects: every engine that covers one stays sound and accounts for its energy, and all see the same
 // events.
 
-#include "support/duel.hpp"
+#include "support/engine_agreement.hpp"
 #include "support/decoded_scene.hpp"
 
 #include <gtest/gtest.h>
@@ -22,25 +22,25 @@ rc::Gen<std::vector<std::uint8_t>> any_bytes() {
   return rc::gen::container<std::vector<std::uint8_t>>(160, rc::gen::arbitrary<std::uint8_t>());
 }
 
-RC_GTEST_PROP(PropertyDuel, EnginesStaySoundAndAgreeOnScenesWithAnyEffects, ()) {
+RC_GTEST_PROP(PropertyAgreement, EnginesStaySoundAndAgreeOnScenesWithAnyEffects, ()) {
   const std::string text = decoded_scene(*any_bytes());
   Scene scene;
   try {
     scene = parse_scene(text);
     RC_LOG() << text;
-    RC_ASSERT(duel(scene, 400) == "");
+    RC_ASSERT(disagreement(scene, 400) == "");
   } catch (const SceneError&) {
     RC_DISCARD("the scene check refuses it");
   }
 }
 
-TEST(PropertyDuel, EnginesStaySoundAndAgreeOnWhatFuzzingHasFound) {
+TEST(PropertyAgreement, EnginesStaySoundAndAgreeOnWhatFuzzingHasFound) {
   for (const auto& entry : std::filesystem::directory_iterator(CAROM_SOURCE_DIR "/tests/fuzz/findings/physics")) {
     std::ifstream file(entry.path(), std::ios::binary);
     const std::vector<std::uint8_t> bytes(std::istreambuf_iterator<char>(file), {});
     SCOPED_TRACE(entry.path().filename().string());
     try {
-      EXPECT_EQ(duel(parse_scene(decoded_scene(bytes))), "");
+      EXPECT_EQ(disagreement(parse_scene(decoded_scene(bytes))), "");
     } catch (const SceneError& error) {
       ADD_FAILURE() << "the scene check refuses it, so that it tests nothing: " << error.what();
     }

@@ -19,13 +19,13 @@
 
 namespace carom::test {
 
-struct Fighter {
+struct WatchedRun {
   std::string engine;
   std::vector<Event> events;
   Numerics numerics;
-  std::string complaint;  ///< empty where the engine stayed sound
-  double length = 0.0;    ///< of the box
-  double pull = 0.0;      ///< acceleration of what falls
+  std::string fault;    ///< empty where the engine stayed sound
+  double length = 0.0;  ///< of the box
+  double pull = 0.0;    ///< acceleration of what falls
 };
 
 /// Whether momentum along an axis passes only between disks.
@@ -57,7 +57,7 @@ inline double height_error(const Scene& scene, const Disks& disks, const Totals&
 }
 
 /// Energy that growing disks gave each other, before velocities were rescaled.
-inline double pumped(const Scene& scene, const Disks& disks, const Totals& totals) {
+inline double energy_from_growth(const Scene& scene, const Disks& disks, const Totals& totals) {
   if (!scene.effects.growth) return 0.0;
   const double heaviest = *std::max_element(disks.mass.begin(), disks.mass.end());
   const double largest = *std::max_element(disks.radius.begin(), disks.radius.end());
@@ -97,8 +97,8 @@ inline bool in_range(const State& state) {
 }
 
 /// Runs about `count` events of any kind and looks at the engine now and then. `nudged`: the start, by so many roundings.
-inline Fighter fight(const Scene& scene, const std::string& engine, std::uint64_t count, double nudged = 0.0) {
-  Fighter fighter{engine, {}, {}, {}, scene.box.lengths().maxCoeff(), pull(scene)};
+inline WatchedRun run_watched(const Scene& scene, const std::string& engine, std::uint64_t count, double nudged = 0.0) {
+  WatchedRun run{engine, {}, {}, {}, scene.box.lengths().maxCoeff(), pull(scene)};
   Start start = draw_start(scene);
   if (nudged != 0.0) nudge(scene.box, nudged, start.state);
   const Disks disks = start.disks;
@@ -113,26 +113,26 @@ inline Fighter fight(const Scene& scene, const std::string& engine, std::uint64_
     running->run_until(forever, no_limit, stretch);
     const State state = running->state();
     const double time = running->now().high;
-    if (!(time >= last_time)) fighter.complaint = fmt::format("the clock goes from {} to {}", last_time, time);
-    if (!state.positions.allFinite() || !state.velocities.allFinite()) fighter.complaint = "a number is not finite";
-    if (const auto faults = running->check_invariants(); !faults.empty()) fighter.complaint = faults.front();
-    if (!fighter.complaint.empty()) {
-      fighter.complaint = fmt::format("{} at time {}: {}", engine, time, fighter.complaint);
+    if (!(time >= last_time)) run.fault = fmt::format("the clock goes from {} to {}", last_time, time);
+    if (!state.positions.allFinite() || !state.velocities.allFinite()) run.fault = "a number is not finite";
+    if (const auto faults = running->check_invariants(); !faults.empty()) run.fault = faults.front();
+    if (!run.fault.empty()) {
+      run.fault = fmt::format("{} at time {}: {}", engine, time, run.fault);
       break;
     }
     largest = std::max(largest, energies(state).scale());
     last_time = time;
     if (!in_range(state)) break;
   }
-  fighter.events = running->take_events();
-  fighter.numerics = running->totals().numerics;
-  if (!fighter.complaint.empty()) return fighter;
+  run.events = running->take_events();
+  run.numerics = running->totals().numerics;
+  if (!run.fault.empty()) return run;
 
   const Totals& totals = running->totals();
   const double given = effects_report(scene, disks, totals, running->state()).energy_supplied.value_or(0.0);
   const double change = energies(running->state()).total() - before.total() - given;
   double turnover = largest + std::abs(totals.dissipated) + std::abs(totals.thermostat_energy) + std::abs(totals.growth_energy) +
-                    std::abs(totals.shear_energy) + pumped(scene, disks, totals);
+                    std::abs(totals.shear_energy) + energy_from_growth(scene, disks, totals);
   for (const double energy : totals.wall_energy) turnover += std::abs(energy);
   double highest = 0.0;
   for (const PotentialStep& step : scene.effects.potential_steps()) highest = std::max(highest, std::abs(step.energy));
@@ -146,13 +146,13 @@ inline Fighter fight(const Scene& scene, const std::string& engine, std::uint64_
       size += std::sqrt(2.0 * disks.mass[i] * turnover);  // no disk ever had more
     }
     if (passes_momentum_only_between_disks(scene, axis) && !(std::abs(gained) <= 1e-11 * size))
-      fighter.complaint = fmt::format("{}: momentum along axis {} changed by {} of {}", engine, axis, gained, size);
+      run.fault = fmt::format("{}: momentum along axis {} changed by {} of {}", engine, axis, gained, size);
   }
   // Every event rounds what it moves a few times, by 1e-16 of it; there are some thousand of them.
   if (!exchanges_uncounted_energy(scene.effects) &&
       !(std::abs(change) <= 1e-11 * turnover + height_error(scene, disks, totals, end.scale)))
-    fighter.complaint = fmt::format("{}: energy changed by {} of {} unexplained", engine, change, turnover);
-  return fighter;
+    run.fault = fmt::format("{}: energy changed by {} of {} unexplained", engine, change, turnover);
+  return run;
 }
 
 }  // namespace carom::test
