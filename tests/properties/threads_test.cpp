@@ -138,9 +138,9 @@ void tell(const Scene& scene, const Threads& threads, int ranks) {
            << threads.events_per_window << " events of each disk in a window\n";
 }
 
-RC_GTEST_PROP(PropertyThreads, GiveTheBitsOfOneForAnyGas, ()) {
+/// A gas that can be shared out.
+Scene any_gas_of_several_cores() {
   Scene scene = any_gas();
-  const Threads threads = any_threads();
   try {
     if (!make_simulation(scene).why_not_threads().empty()) scene.effects.growth.reset();  // until they fill the box
     if (!make_simulation(scene).why_not_threads().empty())
@@ -148,10 +148,36 @@ RC_GTEST_PROP(PropertyThreads, GiveTheBitsOfOneForAnyGas, ()) {
   } catch (const SceneError&) {
     RC_DISCARD("the lattice does not fit");
   }
+  return scene;
+}
+
+RC_GTEST_PROP(PropertyThreads, GiveTheBitsOfOneForAnyGas, ()) {
+  const Scene scene = any_gas_of_several_cores();
+  const Threads threads = any_threads();
   const int ranks = *rc::gen::inRange(1, 5);
   tell(scene, threads, ranks);
   const auto disks = static_cast<std::uint64_t>(scene.disk_count());
   expect_same_bits(scene, threads, ranks, {*rc::gen::inRange<std::uint64_t>(1, 5 * disks), 1, 4 * disks});
+}
+
+RC_GTEST_PROP(PropertyThreads, EndARunToANumberOfCollisionsWhereOneDoes, ()) {
+  Scene scene = any_gas_of_several_cores();
+  Threads threads = any_threads();
+  const int ranks = *rc::gen::inRange(1, 5);
+  tell(scene, threads, ranks);
+  scene.effects.growth.reset();  // which has an end of its own
+  scene.run.collisions = *rc::gen::inRange<std::uint64_t>(1, 5 * static_cast<std::uint64_t>(scene.disk_count()));
+  if (*rc::gen::arbitrary<bool>())
+    scene.run.equilibrate = Run::Equilibrate{.collisions_per_disk = between(1, 20, 0.1), .time = {}};
+  ServingRanks serving(ranks);
+  Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+  threads.domains = std::max(threads.domains, static_cast<std::size_t>(ranks));
+  shared.set_threads(threads, serving.first());
+  const StopReason reason = run_schedule(alone).stopped;
+  RC_ASSERT(run_schedule(shared).stopped == reason);
+  RC_ASSERT(shared.time() == alone.time());
+  RC_ASSERT(shared.counts().pair == alone.counts().pair);
+  RC_ASSERT(state_hash(shared.state()) == state_hash(alone.state()));
 }
 
 RC_GTEST_PROP(PropertyThreads, GiveTheBitsOfOneForAnyEffects, ()) {
