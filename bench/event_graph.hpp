@@ -136,7 +136,7 @@ class Rollback {
   std::vector<std::uint8_t> late_;
 };
 
-/// Each domain with a copy of what is round it, its halo, on a core of its own, without a word to the others. What comes from
+/// Each domain with a copy of what is round it, its halo, on a core of its own, without communication. What comes from
 /// beyond the halo is missing there, and a disk that meets one that is wrong in a copy is wrong there too; all is well until that
 /// comes to a disk at home. Then all halos are copied anew: begin().
 class HaloWindows {

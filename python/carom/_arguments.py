@@ -42,6 +42,14 @@ def whole(value: Any, name: str, least: int = 0, most: int = 2**63 - 1) -> int:
     return number
 
 
+def frame_number(value: Any, frames: int) -> int:
+    """Returns the number of one of `frames`, which may count from the end. Raises TypeError for what is none, and IndexError beyond."""
+    k = whole(value, "the number of a frame", least=-(2**63))
+    if not -frames <= k < frames:
+        raise IndexError(f"there is no frame {k}; there are {frames}, numbered from 0")
+    return k
+
+
 def words(value: Any, name: str) -> str:
     """Returns a string. Raises TypeError for what is none, and ValueError for one that no file can hold."""
     if not isinstance(value, str):

@@ -84,6 +84,7 @@ def _keys_in(value: Any, path: str = "") -> Iterator[str]:
 
 
 def scene_at(base: Scene, keys: Sequence[str], full: Sequence[str], point: Mapping[str, Any]) -> Scene:
+    """Returns the scene of a point. Raises SceneError, which names the point, where it is refused."""
     try:
         return base.set({name: point[key] for key, name in zip(keys, full, strict=True) if key in point})
     except SceneError as error:
@@ -111,6 +112,7 @@ def _point_text(point: Mapping[str, Any]) -> str:
 
 
 def seeds_of(seeds: int | Iterable[int], scene: Scene) -> list[int]:
+    """Returns the seeds of a list, or so many of them from the scene's own on. Raises TypeError and ValueError for what is none."""
     if isinstance(seeds, (int, np.integer)):
         first = int(scene._core.seed)
         seeds = range(first, first + _arguments.whole(seeds, "seeds", 0, 1_000_000))

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from carom import _core
-from carom._arguments import numbers, pairs, path_text, real, whole, whole_pairs
+from carom._arguments import frame_number, numbers, pairs, path_text, real, whole_pairs
 from carom._errors import OutputError
 from carom.scene import Scene
 
@@ -240,9 +240,7 @@ class Frames:
 
     def __getitem__(self, k: int) -> State:
         """Returns frame k, counted from the end where k is negative; parts of the arrays have many frames."""
-        k = whole(k, "the number of a frame", least=-(2**63))
-        if not -len(self) <= k < len(self):
-            raise IndexError(f"there is no frame {k}; there are {len(self)}, numbered from 0")
+        k = frame_number(k, len(self))
 
         def row(array: Any) -> Any:
             return None if array is None else np.ascontiguousarray(array[k])

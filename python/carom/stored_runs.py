@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from carom._arguments import list_of_words, path_text, whole
+from carom._arguments import frame_number, list_of_words, path_text, whole
 from carom._errors import OutputError
 from carom._events import events_in
 from carom._hdf5 import hdf5
@@ -192,10 +192,7 @@ class StoredFrames:
 
     def __getitem__(self, k: int) -> State:
         """Returns frame k to the last bit, counted from the end where k is negative, as `Run.state(k)` does."""
-        k = whole(k, "the number of a frame", least=-(2**63))
-        if not -len(self) <= k < len(self):
-            raise IndexError(f"there is no frame {k}; there are {len(self)}, numbered from 0")
-        return self._run.state(k)
+        return self._run.state(frame_number(k, len(self)))
 
     def __iter__(self) -> Iterator[State]:
         return (self._run.state(k) for k in range(len(self)))

@@ -71,8 +71,8 @@ std::string files(const Scene& scene, std::optional<double> collisions) {
   if (scene.output.csv && sampled) text += ", samples.csv" + size_of_text;
   if (!scene.observe.empty()) text += ", tables of observables";
   if (scene.output.events)
-    text += fmt::format("; all collisions are stored, some {} {}", collisions ? size(*collisions * bytes_per_event) : "73 bytes",
-                        collisions ? "in all" : "each");
+    text += collisions ? fmt::format("; all collisions are stored, some {} in all", size(*collisions * bytes_per_event))
+                       : fmt::format("; all collisions are stored, some {:.0f} bytes each", bytes_per_event);
   return text + "\n";
 }
 

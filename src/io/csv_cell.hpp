@@ -21,6 +21,7 @@ inline void append_csv_cell(std::string& text, double value) {
   if (text.find_first_of(".e", begin) == std::string::npos) text += ".0";
 }
 
+/// Returns what append_csv_cell() appends.
 [[nodiscard]] inline std::string csv_cell(double value) {
   std::string text;
   append_csv_cell(text, value);

@@ -122,6 +122,7 @@ void write_column(hid_t parent, const std::string& name, const std::vector<std::
 [[nodiscard]] std::uint64_t read_unsigned_attribute(hid_t file, const std::string& object, const std::string& name);
 /// Returns the names in a group, in alphabetical order; empty where there is none.
 [[nodiscard]] std::vector<std::string> members_of(hid_t file, const std::string& group);
+
 /// The datasets of a file, each opened when it is first asked for and kept open: to open one anew for each row reads a whole
 /// chunk of the file each time. The file must outlive it.
 class Hdf5Datasets {

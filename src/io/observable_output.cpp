@@ -42,10 +42,8 @@ std::optional<Average> average_in_comment(std::string_view line) {
 
 std::string table_file(const Table& table) { return fmt::format("observe_{}.csv", table.name); }
 
-void write_table(const std::filesystem::path& path, const Table& table) {
-  detail::TextFile file(path);
-  std::string& text = file.buffer();
-  text += entry_of(table.average).comment;
+void append_table(std::string& text, std::string_view comment, const Table& table, const std::function<void()>& after_row) {
+  text += comment;
   for (std::size_t c = 0; c < table.columns.size(); ++c)
     text += fmt::format("{} {}", c == 0 ? "" : ",", table.columns[c].unit.empty() ? "1" : table.columns[c].unit);
   text += "\n";
@@ -58,8 +56,13 @@ void write_table(const std::filesystem::path& path, const Table& table) {
       append_csv_cell(text, table.columns[c].values[r]);
     }
     text += "\n";
-    file.end_record();
+    after_row();
   }
+}
+
+void write_table(const std::filesystem::path& path, const Table& table) {
+  detail::TextFile file(path);
+  append_table(file.buffer(), entry_of(table.average).comment, table, [&file] { file.end_record(); });
   file.close();
 }
 

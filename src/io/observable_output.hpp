@@ -7,6 +7,7 @@
 #include <carom/observe.hpp>
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,6 +24,10 @@ namespace carom {
 
 /// Returns text such as "observe_NAME.csv"
 [[nodiscard]] std::string table_file(const Table& table);
+
+/// Appends a table as files have it: `comment`, which ends in "units:", with the units, a heading and rows. Calls `after_row`
+/// after each of these.
+void append_table(std::string& text, std::string_view comment, const Table& table, const std::function<void()>& after_row);
 
 /// Throws OutputError.
 void write_table(const std::filesystem::path& path, const Table& table);

@@ -34,6 +34,21 @@ bool is_wide(const Box& box, double sigma, double eta) { return box.lengths().mi
 /// is 2 % more than that of 144 disks at 0.69, and the difference falls as 1/N.
 constexpr std::int64_t many_dense_disks = 2000;
 
+/// Returns Z of a fluid of so many equal disks; nothing where no equation of state is good to 0.2 %.
+std::optional<Expected> fluid_Z(double eta, std::int64_t disks) {
+  if (eta <= densest_finite)
+    return Expected{theory::kolafa_rottner_finite(eta, disks), fmt::format("Kolafa & Rottner, N = {}", disks)};
+  if (eta <= densest_fluid && disks >= many_dense_disks)
+    return Expected{theory::kolafa_rottner(eta), "Kolafa & Rottner, infinitely many disks"};
+  return {};
+}
+
+/// Returns g at contact of so many equal disks, which follows from their Z.
+Expected contact_value_of(const Expected& Z, double eta, std::int64_t disks) {
+  const auto N = static_cast<double>(disks);
+  return {(Z.value - 1.0) * N / (2.0 * eta * (N - 1.0)), Z.source};
+}
+
 /// Even steps over the first column of a table, beginning above zero.
 std::vector<double> steps_over(const Table& table) {
   const std::vector<double>& x = table.columns.front().values;
@@ -66,11 +81,8 @@ std::optional<Expected> contact_value(const std::string& scalar, const TheorySou
       if (scalar != "g" + pair && scalar != "g_rate" + pair) continue;
       if (all_equal(radius)) {  // it follows from Z, whatever masses and names are
         const auto disks = static_cast<std::int64_t>(radius.size());
-        const bool is_finite = eta <= densest_finite;
-        if (!is_finite && disks < many_dense_disks) return {};
-        const double Z = is_finite ? theory::kolafa_rottner_finite(eta, disks) : theory::kolafa_rottner(eta);
-        return Expected{(Z - 1.0) * static_cast<double>(disks) / (2.0 * eta * static_cast<double>(disks - 1)),
-                        is_finite ? fmt::format("Kolafa & Rottner, N = {}", disks) : "Kolafa & Rottner, infinitely many disks"};
+        const std::optional<Expected> Z = fluid_Z(eta, disks);
+        return Z ? std::optional(contact_value_of(*Z, eta, disks)) : std::nullopt;
       }
       std::vector<theory::Component> gas;
       for (std::size_t s = 0; s < counts.size(); ++s)
@@ -120,16 +132,14 @@ RunTheory::RunTheory(const RunReport& report, std::optional<TheorySource> source
 }
 
 void RunTheory::find_Z() {
-  if (eta_ <= densest_finite) {
-    Z_ = {theory::kolafa_rottner_finite(eta_, report_.disks), fmt::format("Kolafa & Rottner, N = {}", report_.disks)};
-  } else if (eta_ <= densest_fluid && report_.disks < many_dense_disks) {
+  Z_ = fluid_Z(eta_, report_.disks);
+  if (Z_) return;
+  if (eta_ <= densest_fluid) {
     why_not_Z_ = fmt::format(
         "No theory is given: above a packing fraction of {:g}, the equation of state of infinitely many disks is good to 0.2 % "
         "from "
         "{} disks on.",
         densest_finite, many_dense_disks);
-  } else if (eta_ <= densest_fluid) {
-    Z_ = {theory::kolafa_rottner(eta_), "Kolafa & Rottner, infinitely many disks"};
   } else {
     why_not_Z_ =
         fmt::format("No theory is given: the equation of state of the fluid ends at a packing fraction of {:g}.", densest_fluid);
@@ -331,8 +341,7 @@ std::optional<Expected> RunTheory::of(const std::string& observable, const std::
   if (name == "pressure.Z") return Z_;
   if (name == "pressure.reduced") return Expected{4.0 * eta_ / pi * Z_->value, Z_->source};
   const double disks = static_cast<double>(report_.disks);
-  if (name == "radial_distribution.contact")
-    return Expected{(Z_->value - 1.0) * disks / (2.0 * eta_ * (disks - 1.0)), Z_->source};
+  if (name == "radial_distribution.contact") return contact_value_of(*Z_, eta_, report_.disks);
   if (!is_smooth_) return {};
   if (name == "pressure.Z_rate") return Z_;
   if (observable == "viscosity")

@@ -1,6 +1,5 @@
 #include "studies/sweep/seed_tables.hpp"
 
-#include "io/csv_cell.hpp"
 #include "io/observable_output.hpp"
 #include "observe/table_column.hpp"
 #include "studies/sweep/numbers.hpp"
@@ -220,20 +219,9 @@ std::vector<SeedTable> seed_tables_of(const Sweep& sweep, const SweepResults& re
 }
 
 std::string seed_table_csv(const SeedTable& mean) {
-  std::string text = fmt::format("# means over {} seeds; errors are those of independent seeds; units:", mean.seeds);
-  for (std::size_t c = 0; c < mean.table.columns.size(); ++c)
-    text += fmt::format("{} {}", c == 0 ? "" : ",", mean.table.columns[c].unit.empty() ? "1" : mean.table.columns[c].unit);
-  text += "\n";
-  for (std::size_t c = 0; c < mean.table.columns.size(); ++c)
-    text += fmt::format("{}{}", c == 0 ? "" : ",", mean.table.columns[c].name);
-  text += "\n";
-  for (std::size_t r = 0; r < mean.table.columns.front().values.size(); ++r) {
-    for (std::size_t c = 0; c < mean.table.columns.size(); ++c) {
-      if (c > 0) text += ',';
-      append_csv_cell(text, mean.table.columns[c].values[r]);
-    }
-    text += "\n";
-  }
+  std::string text;
+  append_table(text, fmt::format("# means over {} seeds; errors are those of independent seeds; units:", mean.seeds), mean.table,
+               [] {});
   return text;
 }
 
