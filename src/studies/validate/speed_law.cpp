@@ -63,7 +63,7 @@ Check speed_check(const std::string& what, const SpeedCounts& counts) {
   const double distance = counts.distance();
   return {.name = "distribution of speeds, sqrt(n) times the largest difference (Kolmogorov-Smirnov), " + what,
           .theory =
-              "1 - (1 - v^2 / n <v^2>)^(n - 1), n = number of disks, less one where momentum is conserved; below 1.27 in 99 of "
+              "1 - (1 - v^2 / n <v^2>)^(n - 1), n = number of disks, less one where momentum is conserved; below 1.29 in 99 of "
               "100 cases",
           .source = "Scalas et al., Phys. Rev. E 92, 022140 (2015)",
           .expected = 0.0,
