@@ -240,7 +240,7 @@ class Simulation {
   explicit Simulation(std::unique_ptr<Parts> parts);
   static Simulation begin(const Scene& scene, struct Start start, const std::string& engine);
   static Simulation begin(const Scene& scene, struct Start start, const FixedStep& step);
-  static Simulation begin_elsewhere(const std::string& bytes, Threads& threads);
+  static Simulation begin_elsewhere(Ranks& ranks, Threads& threads);
   static void serve(Ranks& ranks);
   std::unique_ptr<Parts> parts_;
 };

@@ -39,10 +39,8 @@
 #include <numeric>
 #include <optional>
 #include <span>
-#include <sstream>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -174,7 +172,7 @@ class Domains {
 
   // What ranks tell each other. All of them do each of these at the same time.
 
-  void order(Order order, std::string_view more = {}) const;
+  void order(Order order) const;
   void gather_failures();
   void gather_facts(bool window_over);
   void gather_counts();
@@ -184,8 +182,8 @@ class Domains {
   void tell_decision();
   [[nodiscard]] NextEvent choose(const NextEvent& mine, std::uint64_t before);
 
-  [[nodiscard]] std::string engine_as_bytes();
-  void take_share(std::string_view bytes);
+  void send_share();
+  void take_share();
   void throw_failure();
 
   void share_out();

@@ -164,7 +164,7 @@ void Domains<Impact, Layout, World>::end_run() {
 template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::share_out() {
   serially([this] { divide(); });
-  if (ranks_ != nullptr) order(Order::share_out, engine_as_bytes());
+  if (ranks_ != nullptr) send_share();
   make_domains();
   gather_failures();
   throw_failure();

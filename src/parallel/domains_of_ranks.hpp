@@ -1,6 +1,7 @@
 #pragma once
 // What ranks tell each other of their domains, and what those do that rank 0 leads. A rank alone has nothing to tell.
 
+#include "parallel/broadcast_stream.hpp"
 #include "parallel/domains.hpp"
 
 #include <fmt/format.h>
@@ -8,10 +9,9 @@
 namespace carom {
 
 template <class Impact, class Layout, class World>
-void Domains<Impact, Layout, World>::order(Order order, std::string_view more) const {
+void Domains<Impact, Layout, World>::order(Order order) const {
   Packet packet;
   packet.put(order);
-  packet.bytes().append(more);
   ranks_->broadcast(packet.bytes());
 }
 
@@ -22,7 +22,7 @@ void Domains<Impact, Layout, World>::serve() {
     ranks_->broadcast(bytes);
     switch (PacketReader(bytes).take<Order>()) {
       case Order::share_out:
-        take_share(std::string_view(bytes).substr(sizeof(Order)));
+        take_share();
         break;
       case Order::run:
         tell_decision();
@@ -47,29 +47,31 @@ void Domains<Impact, Layout, World>::serve() {
   }
 }
 
-/// All that take_share() needs.
+/// Has take_share() have all that it needs.
 template <class Impact, class Layout, class World>
-std::string Domains<Impact, Layout, World>::engine_as_bytes() {
-  std::ostringstream out;
+void Domains<Impact, Layout, World>::send_share() {
+  order(Order::share_out);
+  detail::BroadcastOutput out(*ranks_);
   SavingArchive archive(out);
   archive(whole_.recorder_.listening(), whole_.recorder_.logging(), reach_, *parts_, engine_);
   if (redraws_ != nullptr) archive(redraws_->scale());
-  return std::move(out).str();
 }
 
 /// Does what share_out() does on rank 0.
 template <class Impact, class Layout, class World>
-void Domains<Impact, Layout, World>::take_share(std::string_view bytes) {
+void Domains<Impact, Layout, World>::take_share() {
   bool listening = false, logging = false;
   failure_.forget();
   try {
-    std::istringstream in{std::string(bytes)};
-    LoadingArchive archive(in);
-    archive(listening, logging, reach_, parts_.emplace(), engine_);
-    if (redraws_ != nullptr) {
-      GrowingScale scale;
-      archive(scale);
-      redraws_->set_scale(scale);
+    {
+      detail::BroadcastInput in(*ranks_);
+      LoadingArchive archive(in);
+      archive(listening, logging, reach_, parts_.emplace(), engine_);
+      if (redraws_ != nullptr) {
+        GrowingScale scale;
+        archive(scale);
+        redraws_->set_scale(scale);
+      }
     }
     parts_->set_reach(reach_);
     half_width_ = whole_.lists_.half_width();

@@ -3,6 +3,7 @@
 #include <carom/ranks.hpp>
 
 #include "core/state_archive.hpp"
+#include "parallel/broadcast_stream.hpp"
 #include "parallel/packet.hpp"
 #include "scene/resolved_effects.hpp"
 #include "simulation/parts.hpp"
@@ -13,7 +14,6 @@
 #include <exception>
 #include <new>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -46,32 +46,34 @@ std::string failure_of_all(Ranks& ranks, const std::string& here) {
 void Simulation::Parts::share_out() {
   std::string task = bytes_of(Task::simulate);
   ranks->broadcast(task);
-  std::ostringstream out;
-  SavingArchive archive(out);
-  const std::optional<Circle>& circle = scene.effects.circle;
-  archive(threads.threads, threads.domains, threads.halo, threads.events_per_window, engine_name,
-          detail::effects_toml(scene.effects), scene.run.seed, scene.box.lower, scene.box.upper, scene.box.periodic(0),
-          scene.box.periodic(1), circle.has_value(), circle ? circle->centre : Eigen::Vector2d::Zero().eval(),
-          circle ? circle->radius : 0.0, disks.radius, disks.mass, disks.species, engine->state());
-  std::string bytes = std::move(out).str();
-  ranks->broadcast(bytes);
+  {
+    detail::BroadcastOutput out(*ranks);
+    SavingArchive archive(out);
+    const std::optional<Circle>& circle = scene.effects.circle;
+    archive(threads.threads, threads.domains, threads.halo, threads.events_per_window, engine_name,
+            detail::effects_toml(scene.effects), scene.run.seed, scene.box.lower, scene.box.upper, scene.box.periodic(0),
+            scene.box.periodic(1), circle.has_value(), circle ? circle->centre : Eigen::Vector2d::Zero().eval(),
+            circle ? circle->radius : 0.0, disks.radius, disks.mass, disks.species, engine->state());
+  }
   if (const std::string failure = failure_of_all(*ranks, {}); !failure.empty()) throw std::runtime_error(failure);
   engine->set_ranks(threads, *ranks);
 }
 
 /// An engine for the disks as they stand; what else decides how they go on comes when they are shared out.
-Simulation Simulation::begin_elsewhere(const std::string& bytes, Threads& threads) {
-  std::istringstream in(bytes);
-  LoadingArchive archive(in);
+Simulation Simulation::begin_elsewhere(Ranks& ranks, Threads& threads) {
   std::string engine, effects;
   Scene scene;
   bool periodic[2] = {};
   bool in_circle = false;
   Circle circle;
   Start start;
-  archive(threads.threads, threads.domains, threads.halo, threads.events_per_window, engine, effects, scene.run.seed,
-          scene.box.lower, scene.box.upper, periodic[0], periodic[1], in_circle, circle.centre, circle.radius, start.disks.radius,
-          start.disks.mass, start.disks.species, start.state);
+  {
+    detail::BroadcastInput in(ranks);
+    LoadingArchive archive(in);
+    archive(threads.threads, threads.domains, threads.halo, threads.events_per_window, engine, effects, scene.run.seed,
+            scene.box.lower, scene.box.upper, periodic[0], periodic[1], in_circle, circle.centre, circle.radius,
+            start.disks.radius, start.disks.mass, start.disks.species, start.state);
+  }
   scene.effects = detail::parse_effects(effects);
   for (std::size_t axis = 0; axis < 2; ++axis) scene.box.boundary[axis] = periodic[axis] ? Boundary::periodic : Boundary::walls;
   if (in_circle) put_in_circle(scene.box, scene.effects, circle);
@@ -83,12 +85,11 @@ void Simulation::serve(Ranks& ranks) {
     std::string bytes;
     ranks.broadcast(bytes);
     if (PacketReader(bytes).take<Task>() == Task::end) return;
-    ranks.broadcast(bytes);
     std::optional<Simulation> simulation;
     Threads threads;
     std::string failure;
     try {
-      simulation.emplace(begin_elsewhere(std::exchange(bytes, {}), threads));
+      simulation.emplace(begin_elsewhere(ranks, threads));
     } catch (const std::bad_alloc&) {
       failure = "there is not enough memory";
     } catch (const std::exception& error) {
