@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from os import PathLike, fspath
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
     from carom import _files
     from carom.pages import Page, Player
+
+T = TypeVar("T")
 
 
 class Run:
@@ -46,15 +48,13 @@ class Run:
             raise OutputError(f"{file}: cannot read this file: {error.strerror}") from None
         except ValueError:
             raise OutputError(f"{file}: this is not the summary of a run; copy it anew or run again") from None
-        self._reader: _files.RunReader | None = None
 
-    def _open(self) -> _files.RunReader:
+    def _read(self, action: Callable[[_files.RunReader], T]) -> T:
+        """Returns what `action` reads. The file is open only meanwhile: all of a program share an open file as it was when it was opened."""
         from carom import _files
 
-        if self._reader is None:
-            with hdf5():
-                self._reader = _files.RunReader(fspath(self.directory))
-        return self._reader
+        with hdf5():
+            return action(_files.RunReader(fspath(self.directory)))
 
     @property
     def scene(self) -> Scene:
@@ -73,21 +73,25 @@ class Run:
 
     def state(self, k: int = -1) -> State:
         """Returns sample k to the last bit, the last one by default: another simulation can begin with it."""
-        with hdf5():
-            reader = self._open()
+
+        def state(reader: _files.RunReader) -> State:
             if reader.samples == 0:
                 raise ValueError(f"{self.directory}: this run kept no samples; run it with run.sample_every and its trajectory")
             at = whole(k, "k", least=-reader.samples, most=reader.samples - 1)
             return State._of(reader.sample(at % reader.samples))
 
+        return self._read(state)
+
     @property
     def events(self) -> npt.NDArray[Any]:
         """All collisions, a structured array as `Simulation.record()` returns it. Raises ValueError where none were written."""
-        reader = self._open()
-        if not reader.has_event_log:
-            raise ValueError(f"{self.directory}: this run has written no collisions; run with events=True")
-        with hdf5():
+
+        def events(reader: _files.RunReader) -> npt.NDArray[Any]:
+            if not reader.has_event_log:
+                raise ValueError(f"{self.directory}: this run has written no collisions; run with events=True")
             return events_in(reader.event_log())
+
+        return self._read(events)
 
     @property
     def observables(self) -> dict[str, Measurement]:
@@ -159,7 +163,7 @@ class Run:
 class StoredFrames:
     """The samples of a run in its file. Arrays behave as h5py's: `frames.positions[::100]` reads every hundredth frame.
 
-    Each index of an array opens the file anew. A loop over all frames is fastest over the frames themselves, `for state in frames`.
+    Each index opens the file anew, so that frames which a resumed run has added are there.
 
     Attributes:
         scene: the scene that ran.
@@ -188,14 +192,15 @@ class StoredFrames:
         return self._dataset("velocity")
 
     def __len__(self) -> int:
-        return int(self._run._open().samples)
+        return self._run._read(lambda reader: int(reader.samples))
 
     def __getitem__(self, k: int) -> State:
         """Returns frame k to the last bit, counted from the end where k is negative, as `Run.state(k)` does."""
-        return self._run.state(frame_number(k, len(self)))
+        return self._run._read(lambda reader: State._of(reader.sample(frame_number(k, reader.samples) % reader.samples)))
 
     def __iter__(self) -> Iterator[State]:
-        return (self._run.state(k) for k in range(len(self)))
+        for k in range(len(self)):
+            yield self[k]
 
     def __repr__(self) -> str:
         return f"<carom.StoredFrames in {self._path}>"

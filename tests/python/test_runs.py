@@ -296,6 +296,16 @@ def test_a_run_read_back_measures_what_the_run_did(tmp_path, gas):
     assert np.array_equal(run.events, sim.record(20.0))
 
 
+def test_frames_that_a_run_gains_later_are_there(gas, tmp_path):
+    carom.run(gas, out=tmp_path / "run", checkpoint_every="1h")
+    run = carom.open_run(tmp_path / "run")
+    frames = run.frames
+    assert len(frames) == 41 and frames[-1].time == run.state().time == 20.0
+    carom.resume(tmp_path / "run", time=30.0)
+    assert len(frames) == 61 and frames[-1].time == run.state().time == carom.open_run(tmp_path / "run").state().time == 30.0
+    assert [state.time for state in frames] == frames.time.tolist() == np.arange(0.0, 30.5, 0.5).tolist()
+
+
 def test_a_run_with_springs_is_verified_with_their_stiffness(tmp_path, gas):
     specular = gas.set({"collision.rule": "specular"})
     result = carom.run(specular, out=tmp_path / "run", method="soft", dt=0.002, stiffness=2e3)
