@@ -25,7 +25,10 @@ class Start:
         velocities: shape (N, 2), length / time; None where the source has none.
         radii, masses: shape (N,); None where the source has none.
         box: ((x_low, x_high), (y_low, y_high)), for `Scene(box={"x": start.box[0], "y": start.box[1], ...})`; None where the source
-            has none.
+            has none. A universe has lengths alone: its box begins at 0, or has 0 in its middle where a coordinate is negative and
+            none is beyond half a length.
+
+    GSD files leave out what is the default of their format: velocities of 0, diameters and masses of 1 are None.
     """
 
     positions: Floats
@@ -48,7 +51,7 @@ def read_start(source: Any, frame: int = -1) -> Start:
         frame: of a trajectory, counted from the end where it is negative.
 
     Raises:
-        SceneError: for a file that is no start, with the line; OutputError where it cannot be read.
+        SceneError: for a file that is no start, with the line; OutputError where it cannot be read; ValueError where its box leans.
     """
     if isinstance(source, (str, PathLike)):
         path = path_text(source, "the path")
@@ -109,9 +112,11 @@ def _of_universe(source: Any, frame: int) -> Start:
         universe.trajectory[frame]
         positions = _plane(atoms.positions)
         velocities = _plane(atoms.velocities) if universe.trajectory.ts.has_velocities else None
-        size = universe.trajectory.ts.dimensions
+        size = None if universe.trajectory.ts.dimensions is None else universe.trajectory.ts.dimensions.copy()
     finally:
         universe.trajectory[here]
+    if size is not None and np.any(size[3:] != 90):
+        raise ValueError("the box of the universe leans; a start has a rectangular box")
 
     def column(name: str) -> Floats | None:
         found = getattr(atoms, name, None)
@@ -119,11 +124,10 @@ def _of_universe(source: Any, frame: int) -> Start:
             return None  # from the symbols of elements, which stand for species
         return None if found is None or not np.all(np.asarray(found) > 0) else np.asarray(found, np.float64)
 
-    def edges(axis: int) -> tuple[float, float]:
-        """Returns a box that begins at 0, as MDAnalysis takes it, or has 0 in its middle, as GSD files and others have it."""
-        length = float(size[axis])
-        is_centred = len(positions) > 0 and positions[:, axis].min() < 0 and np.all(np.abs(positions[:, axis]) <= length / 2)
-        return (-length / 2, length / 2) if is_centred else (0.0, length)
-
-    box = None if size is None else (edges(0), edges(1))
+    box = None
+    if size is not None:
+        lengths = size[:2].astype(np.float64)
+        is_centred = bool(np.any(positions < 0) and np.all(np.abs(positions) <= lengths / 2))
+        x, y = (float(length) for length in lengths)
+        box = ((-x / 2, x / 2), (-y / 2, y / 2)) if is_centred else ((0.0, x), (0.0, y))
     return Start(positions, velocities, column("radii"), column("masses"), box)

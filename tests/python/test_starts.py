@@ -104,7 +104,23 @@ def test_a_universe_whose_middle_is_0_has_such_a_box():
     MDAnalysis = pytest.importorskip("MDAnalysis", reason="MDAnalysis is not installed")
     universe = MDAnalysis.Universe.empty(2, trajectory=True)
     universe.load_new(np.array([[[-4.5, 0, 0], [4.5, 1, 0]]]), dimensions=np.array([10, 8, 8, 90, 90, 90]))
-    assert carom.read_start(universe).box == ((-5.0, 5.0), (0.0, 8.0))
+    assert carom.read_start(universe).box == ((-5.0, 5.0), (-4.0, 4.0))
+    universe.load_new(np.array([[[-0.01, 3, 0], [4.5, 7, 0]]]), dimensions=np.array([10, 8, 8, 90, 90, 90]))
+    assert carom.read_start(universe).box == ((0.0, 10.0), (0.0, 8.0))
+
+
+def test_a_universe_has_the_box_of_the_frame_that_is_read():
+    MDAnalysis = pytest.importorskip("MDAnalysis", reason="MDAnalysis is not installed")
+    universe = MDAnalysis.Universe.empty(1, trajectory=True)
+    lengths = np.array([[10, 8, 8, 90, 90, 90], [9, 8, 8, 90, 90, 90]])
+    universe.load_new(np.ones((2, 1, 3)), dimensions=lengths)
+    universe.trajectory[0]
+    assert carom.read_start(universe, frame=1).box == ((0.0, 9.0), (0.0, 8.0))
+    assert universe.trajectory.frame == 0
+    lengths[1, 5] = 84
+    universe.load_new(np.ones((2, 1, 3)), dimensions=lengths)
+    with pytest.raises(ValueError, match="the box of the universe leans"):
+        carom.read_start(universe, frame=1)
 
 
 def test_a_gsd_file_gives_what_is_written_in_it(tmp_path):
