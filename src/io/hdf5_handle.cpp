@@ -220,14 +220,16 @@ std::string_view advice_on(const Hdf5Error& error) {
 }
 
 const Hdf5Datasets::Dataset& Hdf5Datasets::opened(const std::string& name) {
-  const auto [entry, is_new] = opened_.try_emplace(name);
-  Dataset& dataset = entry->second;
-  if (!is_new || !exists(file_, name)) return dataset;
-  dataset.id = Hdf5Id(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
-  const Hdf5Id space(H5Dget_space(dataset.id.get()), H5Sclose);
-  dataset.extents.resize(static_cast<std::size_t>(checked(H5Sget_simple_extent_ndims(space.get()))));
-  checked(H5Sget_simple_extent_dims(space.get(), dataset.extents.data(), nullptr));
-  return dataset;
+  const std::lock_guard lock(opening_);
+  if (const auto found = opened_.find(name); found != opened_.end()) return found->second;
+  Dataset dataset;
+  if (exists(file_, name)) {
+    dataset.id = Hdf5Id(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+    const Hdf5Id space(H5Dget_space(dataset.id.get()), H5Sclose);
+    dataset.extents.resize(static_cast<std::size_t>(checked(H5Sget_simple_extent_ndims(space.get()))));
+    checked(H5Sget_simple_extent_dims(space.get(), dataset.extents.data(), nullptr));
+  }
+  return opened_.emplace(name, std::move(dataset)).first->second;  // only what could be opened: else the next to ask is told too
 }
 
 std::vector<hsize_t> Hdf5Datasets::extents(const std::string& name) { return opened(name).extents; }

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <map>
+#include <mutex>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -143,6 +144,7 @@ class Hdf5Datasets {
 
   hid_t file_;
   std::map<std::string, Dataset> opened_;
+  std::mutex opening_;
 };
 
 /// Returns the extents of a dataset; empty where there is none.

@@ -1,6 +1,7 @@
 // Runs read back: what the engine had is what the reader gives, and every kind of directory that is no finished run is refused in
 // one sentence.
 
+#include "io/hdf5_handle.hpp"
 #include "support/child_process.hpp"
 #include "support/recorded_run.hpp"
 #include "support/refusal.hpp"
@@ -9,6 +10,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <hdf5.h>
+
+#include <thread>
 
 namespace carom::test {
 namespace {
@@ -244,6 +249,44 @@ TEST_F(RunReaderTest, RefusesARunWithoutATrajectory) {
   (void)recorded();
   fs::remove(run_ / "trajectory.h5md");
   EXPECT_THAT(refusal(run_), HasSubstr("kept no trajectory.h5md"));
+}
+
+/// Also the second time: a dataset that cannot be opened is not one that is not there.
+TEST_F(RunReaderTest, RefusesADamagedDatasetEachTime) {
+  const std::string spins = "observables/spin/value";
+  record(parse_scene(mixture, "mixture", {"walls.top.velocity=0", "collision.roughness=0.5"}), run_);
+  const fs::path file = run_ / "trajectory.h5md";
+  haddr_t header = 0;
+  {
+    const detail::Hdf5Id opened(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+    H5O_info_t info;
+    ASSERT_GE(H5Oget_info_by_name(opened.get(), spins.c_str(), &info, H5P_DEFAULT), 0);
+    header = info.addr;
+  }
+  std::string bytes = text_of(file);
+  bytes.replace(header, 16, 16, '\xff');
+  write_text(file, bytes);
+  const RunReader reader(run_);
+  for (int k = 0; k < 2; ++k)
+    EXPECT_THAT(test::refusal<OutputError>([&] { (void)reader.sample(1); }), HasSubstr("it is damaged or cut short"));
+}
+
+/// The data race would be between datasets that are opened when they are first asked for.
+TEST_F(RunReaderTest, IsReadByThreadsSideBySide) {
+  hbool_t is_safe = 0;
+  ASSERT_GE(H5is_library_threadsafe(&is_safe), 0);
+  if (is_safe == 0) GTEST_SKIP() << "HDF5 is not built for threads here";
+  const fs::path run = recorded();
+  for (int repeat = 0; repeat < 20; ++repeat) {
+    const RunReader reader(run);
+    std::vector<State> states(4);
+    {
+      std::vector<std::jthread> threads;
+      for (State& state : states) threads.emplace_back([&] { state = reader.sample(7); });
+    }
+    for (const State& state : states) EXPECT_EQ(state_hash(state), state_hash(states[0]));
+    EXPECT_EQ(state_hash(states[0]), state_hash(RunReader(run).sample(7)));
+  }
 }
 
 TEST_F(RunReaderTest, RefusesFilesThatAreCutShort) {
