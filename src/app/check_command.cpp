@@ -31,8 +31,8 @@ constexpr double bytes_per_disk_and_frame = 6 * sizeof(double) + 3 * sizeof(std:
 constexpr double bytes_per_frame = 24 * sizeof(double);
 // Four numbers of some 18 digits and what goes with them, for one disk in one frame.
 constexpr double bytes_of_text_per_disk_and_frame = 100;
-// Time, disks, velocities and where they touched.
-constexpr double bytes_per_event = 73;
+// Time, disks and velocities, of which compression leaves two thirds.
+constexpr double bytes_per_event = 40;
 
 std::string start_and_engine(const Scene& scene, const Simulation& simulation) {
   const double kT = kinetic_temperature(scene.box, scene.effects, simulation.disks(), simulation.state());
@@ -52,8 +52,8 @@ std::string conserved_words(const Scene& scene, const Effects& whole_run) {
   return scene.changes.empty() || words == "nothing" ? words : "between changes: " + words;
 }
 
-/// `collisions`: how many are expected, if that is known.
-std::string files(const Scene& scene, std::optional<double> collisions) {
+/// `events`: how many a log is expected to have, if that is known.
+std::string files(const Scene& scene, std::optional<double> events) {
   const std::optional<std::uint64_t> samples = expected_samples(scene);
   std::string text = "  files       summary.json";
   const bool sampled = scene.run.is_sampled();
@@ -71,8 +71,8 @@ std::string files(const Scene& scene, std::optional<double> collisions) {
   if (scene.output.csv && sampled) text += ", samples.csv" + size_of_text;
   if (!scene.observe.empty()) text += ", tables of observables";
   if (scene.output.events)
-    text += collisions ? fmt::format("; all collisions are stored, some {} in all", size(*collisions * bytes_per_event))
-                       : fmt::format("; all collisions are stored, some {:.0f} bytes each", bytes_per_event);
+    text += events ? fmt::format("; all collisions are stored, some {} in all", size(*events * bytes_per_event))
+                   : fmt::format("; all collisions are stored, some {:.0f} bytes each", bytes_per_event);
   return text + "\n";
 }
 
@@ -95,15 +95,15 @@ ExitCode check(const CheckOptions& options) {
                           grouped(most_disks_drawn), expected_bytes_per_disk(scene.effects));
   fmt::print("{} is a valid scene{}\n\n", scene.source, scene.title.empty() ? "" : fmt::format(": {}", scene.title));
   fmt::print("{}  conserved   {}\n{}", describe(scene), conserved_words(scene, whole_run), start);
-  std::optional<double> collisions;
+  std::optional<double> logged;
   if (trial) {
     const SuggestedThreads suggested = suggested_threads(trial->simulation());
     const ExpectedCost cost = trial->run();
-    collisions = cost.collisions;
+    logged = cost.logged;
     fmt::print("  threads     {}\n  cost        {}{}\n", suggested.words, cost_words(cost),
                suggested.threads > 1 ? "; the trial had one core" : "");
   }
-  fmt::print("{}", files(scene, collisions));
+  fmt::print("{}", files(scene, logged));
   if (const std::string missing = absent(whole_run); !missing.empty()) fmt::print("\nNot simulated: {}.\n", missing);
   return exit_done;
 }

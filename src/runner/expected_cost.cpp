@@ -110,6 +110,9 @@ std::optional<double> rate_by_theory(const Scene& scene, double kT) {
   return theory::collision_rate(gas, kT) * scene.box.area();
 }
 
+/// Returns the number of events that a log of a run has.
+double logged_in(const Totals& totals) { return static_cast<double>(totals.events() - totals.thermostat); }
+
 /// Returns the number of collisions with anything.
 double collisions_in(const Totals& totals) {
   return static_cast<double>(totals.pair) + static_cast<double>(totals.wall) + static_cast<double>(totals.obstacle);
@@ -175,6 +178,8 @@ ExpectedCost Trial::run() {
     cost.collisions = tried;
     cost.seconds = cost.trial_seconds;
     const double before = parts.size() > 1 ? std::min(parts.front().lasts(tried / cost.trial_time), cost.trial_time) : 0.0;
+    cost.logged = logged_in(simulation_.totals());
+    if (before > 0.0) *cost.logged *= 1.0 - before / cost.trial_time;
     if (!scene_.observe.empty()) observe(cost, start, before, cost.trial_time - before);
     return cost;
   }
@@ -183,6 +188,8 @@ ExpectedCost Trial::run() {
   cost.by_theory = known.has_value();
   double per_time = known.value_or(tried / cost.trial_time);
   double seconds_per_time = cost.trial_seconds / cost.trial_time;
+  double logged_per_time = logged_in(simulation_.totals()) / cost.trial_time;
+  if (known && tried > 0.0) logged_per_time *= *known * cost.trial_time / tried;
   if (half && may_come_to_rest(scene_.effects)) {
     const Totals totals = simulation_.totals();
     const double before = collisions_in(half->totals), lasted = cost.trial_time - half->time;
@@ -191,6 +198,7 @@ ExpectedCost Trial::run() {
     if (cost.quickens) {
       per_time = static_cast<double>(totals.pair - half->totals.pair) / lasted;
       seconds_per_time = (cost.trial_seconds - half->loop_seconds) / lasted;
+      logged_per_time = (logged_in(totals) - logged_in(half->totals)) / lasted;
     }
   }
   cost.at_least = cost.quickens || detail::any_acting(scene_.effects, &detail::EffectTraits::changes_radii);
@@ -201,9 +209,11 @@ ExpectedCost Trial::run() {
   }
   if (!(time < latest)) return cost;
   cost.collisions = collisions;
+  cost.logged = parts.back().lasts(per_time) * logged_per_time;
   cost.seconds = tried > 0.0 && !cost.quickens ? collisions * cost.trial_seconds / tried : time * seconds_per_time;
   if (cost.quickens && *cost.seconds > forever_seconds) {
     cost.collisions.reset();
+    cost.logged.reset();
     cost.seconds.reset();
     return cost;
   }

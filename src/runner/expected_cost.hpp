@@ -16,6 +16,7 @@ struct ExpectedCost {
   std::uint64_t trial_collisions = 0;  ///< number of pair collisions in the trial
   double trial_time = 0.0;             ///< simulated time of the trial
   std::optional<double> collisions;    ///< expected number of pair collisions; empty where the trial does not determine it
+  std::optional<double> logged;        ///< expected number of events in a log of the measured part; likewise
   std::optional<double> seconds;       ///< expected seconds; empty where the trial does not determine them
   bool by_theory = false;  ///< collisions are what kinetic theory says of a uniform gas, and not as many as the trial had
   bool at_least = false;   ///< disks grow: later times are denser than the trial, or the end is not known; or `quickens`
