@@ -54,11 +54,6 @@ bool keeps_set_of_speeds(const Effects& effects) {
          why_no_Z(effects, &detail::EffectTraits::keeps_speeds).empty();
 }
 
-bool keeps_turning(const Scene& scene) {
-  return scene.box.is_circle && scene.effects.collision.rule == CollisionRule::specular &&
-         detail::all_acting(scene.effects, &detail::EffectTraits::conserves_angular_momentum);
-}
-
 bool keeps_energy_of_positions(const Effects& effects) {
   return detail::any_acting(effects, &detail::EffectTraits::has_energy_of_disk_positions) && detail::conserve_energy(effects);
 }
@@ -69,6 +64,11 @@ bool are_moved_by_collisions_alone(const Scene& scene) {
 }
 
 }  // namespace
+
+bool keeps_turning(const Scene& scene) {
+  return scene.box.is_circle && scene.effects.collision.rule == CollisionRule::specular &&
+         detail::all_acting(scene.effects, &detail::EffectTraits::conserves_angular_momentum);
+}
 
 std::string_view why_no_Z(const Effects& effects, bool detail::EffectTraits::*passed_over) {
   if (std::abs(effects.collision.roughness.value_or(-1.0)) != 1.0) return "collisions take energy away";

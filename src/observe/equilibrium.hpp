@@ -23,6 +23,9 @@ namespace carom {
 /// the mean of the temperature, and not with that of one state.
 [[nodiscard]] bool temperature_fluctuates(const Effects& effects);
 
+/// Returns whether the disks of a circular box keep their angular momentum.
+[[nodiscard]] bool keeps_turning(const Scene& scene);
+
 /// Returns the reason why errors of one run do not cover the scatter between starts, as a sentence without its stop; empty where
 /// they do. A mixture beyond a packing fraction of 0.72 keeps its arrangement for long. Reversal of equal masses never changes
 /// the set of speeds. In a circular box all disks together keep turning as they did at the start. Where energy is conserved and

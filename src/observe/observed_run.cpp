@@ -75,9 +75,10 @@ std::vector<std::string> suffixes_of(const std::vector<Species>& species) {
   if (species.size() == 1) return {""};
   std::vector<std::string> suffixes;
   for (const Species& one : species) suffixes.push_back("_" + word_of(one.name));
-  // Names of results have one or two of these, beside "_x", "_y" and "_error". They differ if none begins like another.
+  // Names of results have one or two of these, beside "_x", "_y", "_error" and, before two, "_rate". They differ if none begins
+  // like another.
   std::vector<std::string> sorted = suffixes;
-  sorted.insert(sorted.end(), {"_x", "_y", "_error"});
+  sorted.insert(sorted.end(), {"_x", "_y", "_error", "_rate"});
   for (std::string& suffix : sorted) suffix += '_';
   std::sort(sorted.begin(), sorted.end());
   const auto begins_like = [](const std::string& one, const std::string& next) { return next.starts_with(one); };

@@ -164,7 +164,7 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
     const Effects& effects = run_.scene.effects;
     if (!why_no_Z_.empty()) return std::string(why_no_Z_);
     if (effects.collision.rule == CollisionRule::reversal) return "under reversal velocities need not be Maxwell's";
-    if (run_.scene.box.is_circle) return "in a circular box disks keep an angular momentum, and meet at another rate";
+    if (keeps_turning(run_.scene)) return "in a circular box disks keep an angular momentum, and meet at another rate";
     if (!effects.potential_steps().empty())
       return effects.stepped_potential ? "steps of the potential transfer momentum too"
                                        : "wells transfer momentum at their edges too";

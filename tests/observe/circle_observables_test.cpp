@@ -57,6 +57,7 @@ TEST(GasInACircle, EveryObservableSaysThatItKeepsTurning) {
     for (const char* name : {"mean_square_displacement", "velocity_autocorrelation", "fields", "overlap", "pressure"})
       EXPECT_EQ(o.of(name).note.find("all disks together keep turning") != std::string::npos, keeps_turning) << name << more;
     EXPECT_EQ(o.of("mean_square_displacement").note.find("too large") != std::string::npos, !keeps_turning) << more;
+    EXPECT_EQ(o.scalar("pressure", "Z_rate").value.has_value(), !keeps_turning) << more;
   }
 }
 
