@@ -4,6 +4,7 @@
 #include "observe/equilibrium.hpp"
 #include "observe/mechanics.hpp"
 #include "theory/equation_of_state.hpp"
+#include "theory/finite_fluid.hpp"
 
 #include <fmt/format.h>
 
@@ -50,18 +51,22 @@ std::string obstacles_json(const Effects& effects) {
   return "[" + text + "]";
 }
 
-/// Z of the equation of state, where the disks are of one size and fluid, and nothing but collisions acts.
-std::optional<double> theory_Z(const Simulation& simulation) {
+/// Z of the equation of state, where the disks are of one size and fluid, and nothing but collisions acts: of so many disks where
+/// that is known, else of an infinite fluid.
+std::optional<theory::FluidZ> theory_Z(const Simulation& simulation) {
   const Scene& scene = simulation.scene();
   const Disks& disks = simulation.disks();
   const double eta = scene.packing_fraction();
-  if (disks.count() < 2 || !why_no_Z(scene.effects).empty() || !scene.effects.potential_steps().empty() || !(eta <= 0.69))
+  if (disks.count() < 2 || !why_no_Z(scene.effects).empty() || !scene.effects.potential_steps().empty() ||
+      !(eta <= theory::densest_fluid))
     return std::nullopt;
   if (detail::effect_named("non_additivity").acts(scene.effects)) return std::nullopt;
   if (std::adjacent_find(disks.radius.begin(), disks.radius.end(), std::not_equal_to<>()) != disks.radius.end())
     return std::nullopt;
   const bool periodic = scene.box.periodic(0) && scene.box.periodic(1);
-  return periodic && eta < 0.63 ? theory::kolafa_rottner_finite(eta, scene.disk_count()) : theory::kolafa_rottner(eta);
+  std::optional<theory::FluidZ> Z;
+  if (periodic && theory::is_wide(scene.box, 2.0 * disks.radius.front(), eta)) Z = theory::fluid_Z(eta, scene.disk_count());
+  return Z ? Z : theory::FluidZ{.value = theory::kolafa_rottner(eta), .of_so_many = false};
 }
 
 }  // namespace
@@ -94,12 +99,13 @@ std::string description(const Session& session) {
       effects.shear ? json_number(effects.shear->rate) : "null", effects.drag ? json_number(effects.drag->rate) : "null",
       effects.tumbling ? json_number(effects.tumbling->rate) : "null",
       effects.growth ? json_number(effects.growth->rate) : "null");
+  const std::optional<theory::FluidZ> Z = theory_Z(simulation);
   json += fmt::format(
-      "\"wellDepth\":{},\"wellWidth\":{},\"engine\":{},\"whyNoZ\":{},\"theoryZ\":{},\"packing\":{},"
+      "\"wellDepth\":{},\"wellWidth\":{},\"engine\":{},\"whyNoZ\":{},\"theoryZ\":{},\"theoryIsInfinite\":{},\"packing\":{},"
       "\"crossing\":{},",
       effects.square_well ? json_number(effects.square_well->depth) : "null",
       effects.square_well ? json_number(effects.square_well->width) : "null", json_text(simulation.engine()),
-      json_text(why_no_Z(effects)), json_number(theory_Z(simulation)), json_number(scene.packing_fraction()),
+      json_text(why_no_Z(effects)), Z ? json_number(Z->value) : "null", Z && !Z->of_so_many, json_number(scene.packing_fraction()),
       json_number(session.crossing()));
   json +=
       fmt::format("\"isCircle\":{},\"steps\":{},\"delta\":{},\"brownian\":{},", scene.box.is_circle, steps_json(effects),

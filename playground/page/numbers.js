@@ -36,6 +36,9 @@ function showNumbers() {
   const isTheory = d.theoryZ !== null && disks >= 20;
   byId("Zrow").hidden = byId("factorRow").hidden = !isZ;
   byId("theoryRow").hidden = byId("theoryOfZ").hidden = !isTheory;
+  const infinite = d.theoryIsInfinite ? t("number.theoryInfinite") : null;
+  byId("theoryRow").textContent = infinite ?? t("number.theory");
+  byId("theoryName").textContent = infinite ?? t("number.theoryZ");
   byId("noZ").hidden = isZ;
   if (!isZ) byId("noZ").textContent = t("noZ", { why: told(d.whyNoZ) });
   if (m && isZ) {
@@ -58,7 +61,7 @@ function showNumbers() {
   // Paths end at posts too, which are not counted.
   byId("pathRow").hidden = d.obstacles.some((one) => one.centre);
   const theoryPath = enskogPath();
-  put("path", `${short(n[at.path])}${theoryPath ? ` (${t("enskog")} ${short(theoryPath)})` : ""}`, "length");
+  put("path", `${short(n[at.path])}${theoryPath ? ` (${infinite ? `${infinite}:` : t("enskog")} ${short(theoryPath)})` : ""}`, "length");
 
   // Where disks meet that stood where a change has put them, the last digit may be missing.
   const isRounding = n[at.deepest] < 1e-9;

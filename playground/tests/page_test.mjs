@@ -147,6 +147,7 @@ await test("a round box", async () => {
   const { theoryZ, upper, lower, packing } = await ask("carom.run.description");
   const area = (Math.PI * (upper[0] - lower[0]) ** 2) / 4;
   const pressure = (theoryZ * 100 * (await ask("carom.run.numbers[15]"))) / area;
+  check("the theory is said to be of an infinite fluid", (await ask('document.getElementById("theoryRow").textContent')) === "infinite fluid");
   const [shown] = (await ask("document.querySelector('[data-number=theory]').textContent")).split(" ");
   check("the pressure of the theory is that of a circle", Math.abs(Number(shown) / pressure - 1) < 1e-3, [shown, pressure]);
   const path = area / (2 * Math.SQRT2 * 100 * ((theoryZ - 1) / (2 * packing)));

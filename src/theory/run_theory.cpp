@@ -6,6 +6,7 @@
 #include "scene/fixed_shapes.hpp"
 #include "theory/barometer.hpp"
 #include "theory/equation_of_state.hpp"
+#include "theory/finite_fluid.hpp"
 #include "theory/kinetic.hpp"
 #include "theory/microcanonical.hpp"
 
@@ -22,25 +23,15 @@ namespace carom {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-using theory::densest_finite, theory::densest_fluid;
+using theory::densest_finite, theory::densest_fluid, theory::is_wide, theory::many_dense_disks;
 constexpr int line_points = 200;
-
-/// Returns whether a periodic box is so wide that its shape, and terms beyond the first in 1/N, matter less than 0.1 % to Z: in a
-/// narrower one disks meet images of their own neighbours. Runs of 9 to 144 disks in squares, with 20 million collisions each,
-/// differ by 0.05 % in boxes of 6.6 diameters at 0.45, 0.2 % in those of 5; at 0.62 by 0.0 % of 11.3, 0.2 % of 9, 0.8 % of 6.8.
-bool is_wide(const Box& box, double sigma, double eta) { return box.lengths().minCoeff() >= (eta <= 0.45 ? 6.5 : 10.5) * sigma; }
-
-/// From so many disks on, Z of infinitely many is good to 0.2 % at packing fractions between densest_finite and densest_fluid: it
-/// is 2 % more than that of 144 disks at 0.69, and the difference falls as 1/N.
-constexpr std::int64_t many_dense_disks = 2000;
 
 /// Returns Z of a fluid of so many equal disks; nothing where no equation of state is good to 0.2 %.
 std::optional<Expected> fluid_Z(double eta, std::int64_t disks) {
-  if (eta <= densest_finite)
-    return Expected{theory::kolafa_rottner_finite(eta, disks), fmt::format("Kolafa & Rottner, N = {}", disks)};
-  if (eta <= densest_fluid && disks >= many_dense_disks)
-    return Expected{theory::kolafa_rottner(eta), "Kolafa & Rottner, infinitely many disks"};
-  return {};
+  const std::optional<theory::FluidZ> Z = theory::fluid_Z(eta, disks);
+  if (!Z) return {};
+  return Expected{Z->value, Z->of_so_many ? fmt::format("Kolafa & Rottner, N = {}", disks)
+                                          : std::string("Kolafa & Rottner, infinitely many disks")};
 }
 
 /// Returns g at contact of so many equal disks, which follows from their Z.
@@ -137,8 +128,7 @@ void RunTheory::find_Z() {
   if (eta_ <= densest_fluid) {
     why_not_Z_ = fmt::format(
         "No theory is given: above a packing fraction of {:g}, the equation of state of infinitely many disks is good to 0.2 % "
-        "from "
-        "{} disks on.",
+        "from {} disks on.",
         densest_finite, many_dense_disks);
   } else {
     why_not_Z_ =
@@ -161,7 +151,7 @@ void RunTheory::find_velocities() {
   conserved_axes_ = (x ? 1 : 0) + (y ? 1 : 0);
   // With a momentum along one axis, or an angular one, the law of few disks is another than those two.
   constexpr std::int64_t many = 100;  // from which on it differs by less than a per cent from that of infinitely many
-  const bool is_between = is_fixed && (x != y || box.is_circle);
+  const bool is_between = is_fixed && (x != y || keeps_turning(source_->scene));
   if (is_between && report_.disks < many) return;
   const Eigen::Vector2d common = report_.momentum_initial.cwiseProduct(Eigen::Vector2d(x ? 1.0 : 0.0, y ? 1.0 : 0.0));
   const double energy = common.squaredNorm() / (2.0 * source_->disks.total_mass());
