@@ -67,6 +67,10 @@ LoopState<Impact, Layout, World>::LoopState(const Box& box, const Disks& disks, 
       stall_(effects, disks.count()),
       common_motion_(box, effects),
       recorder_(ids_, world_.g()) {
+  bool has_potential = false;
+  if constexpr (!Impact::plain) has_potential = impact_.potential().present();
+  flight_.make_room(start.positions, has_potential);
+  for (int k = 0; k < 2; ++k) frame_.unit[k] = flight_.axis(k).unit, frame_.steps[k] = flight_.axis(k).steps;
   detail::OrderInSpace order = detail::order_in_space(flight_.axis(0), flight_.axis(1), start);
   ids_ = std::move(order.ids);
   sizes_.radius = detail::in_order(disks.radius, ids_);

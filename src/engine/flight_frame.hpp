@@ -263,6 +263,18 @@ class FlightFrame {
     depth_[k] = depth_rest_[k].coarsened(depth_[k]);
   }
 
+  /// Makes coordinates coarser, before lines are drawn, until those of all positions fit, and `with_distances` their distances
+  /// from each other: walls may have moved far from where the box says.
+  void make_room(const Eigen::Matrix2Xd& positions, bool with_distances) {
+    std::vector<Line> no_lines;
+    for (int k = 0; k < 2; ++k) {
+      if (axes_[k].periodic || positions.cols() == 0) continue;
+      const double lowest = positions.row(k).minCoeff() - middle_[k], highest = positions.row(k).maxCoeff() - middle_[k];
+      const double farthest = std::max({-lowest, highest, with_distances ? highest - lowest : 0.0});
+      while (farthest >= 0x1p63 * axes_[k].unit) coarsen(k, no_lines);
+    }
+  }
+
   /// Counts the edges that a pair whose lines the kernel has drawn passed in it.
   [[gnu::noinline, gnu::cold]] void count_images(const CollidedPair& pair) {
     for (int k = 0; k < 4; ++k)

@@ -425,5 +425,42 @@ TEST(SceneChanges, AreNotForFixedSteps) {
   EXPECT_THROW((void)make_simulation(scene, FixedStep{"grid", 0.01}), std::invalid_argument);
 }
 
+/// Coordinates of another engine have room for the box and some spacings beyond; walls may have moved much farther.
+TEST(SceneChanges, LeaveDisksWhereTheyAreFarOutsideTheBox) {
+  for (const char* wall : {"right", "left"}) {
+    const double way = *wall == 'r' ? 1.0 : -1.0;
+    const Scene scene = parse_scene(fmt::format(
+        "[box]\nx = [0, 1]\ny = [0, 1]\nboundary = \"walls\"\n[[disks]]\nradius = 0.125\nmass = 1\npositions = [[0.5, 0.25]]\n"
+        "velocities = [[{}, 0]]\n[collision]\nrule = \"specular\"\n[walls]\n{} = {{ velocity = {} }}\n[run]\ntime = 1e6\n"
+        "[[changes]]\ntime = 100\nscale_velocities = 1.0\n[[changes]]\ntime = 1000\nscale_velocities = 1.0\n",
+        way, wall, way));
+    for (const char* engine : {"general", "textbook"}) {
+      Simulation simulation = make_simulation(scene, engine);
+      for (const double time : {99.0, 128.0, 1024.0, 1e6}) {
+        simulation.run_until(time);
+        EXPECT_EQ(simulation.state().positions(0, 0), 0.5 + way * time) << engine << " with the wall " << wall;
+      }
+    }
+  }
+}
+
+TEST(SceneChanges, KeepDisksApartFarOutsideTheBox) {
+  const std::string wells = "[[changes]]\ntime = 500\nset = [\"square_well={ width = 1.5, depth = 0.1 }\"]\n";
+  const std::string nothing = "[[changes]]\ntime = 500\nscale_velocities = 1.0\n";
+  for (const std::string right : {"{ velocity = 1.0 }", "{ mass = 10.0, load = 0.001 }"})
+    for (const std::string& change : {nothing, wells}) {
+      SCOPED_TRACE(right + change);
+      const Scene scene = parse_scene(
+          "[box]\nx = [0, 14]\ny = [0, 14]\nboundary = \"walls\"\n[[disks]]\ncount = 25\nradius = 0.5\nmass = 1\npositions = "
+          "\"random\"\nvelocities = { temperature = 1 }\n[collision]\nrule = \"specular\"\n[walls]\nright = " +
+          right + "\n[run]\ntime = 600\n" + change);
+      Simulation simulation = make_simulation(scene);
+      EXPECT_EQ(simulation.run_until(600.0), StopReason::time);
+      EXPECT_EQ(simulation.check_invariants(), std::vector<std::string>());
+      EXPECT_EQ(simulation.totals().numerics.overlapping, 0U);
+      EXPECT_GT(simulation.state().walls[1].position, 100.0) << "where disks are beyond the room";
+    }
+}
+
 }  // namespace
 }  // namespace carom::test
