@@ -3,7 +3,8 @@
 // handles, so that an event can be changed in place; nothing is ever left behind in the queue.
 //
 // Ties: events at the same time are ordered by the lower id of the disks they concern, then by the other id. A wall
-// has a negative id, so a disk meets a wall before it meets a higher disk.
+// has a negative id, so a disk meets a wall before it meets a higher disk. The plans of two disks for one collision come in the
+// order of the disks: else the shape of the heap, which is another after a resume, would say which of them is stale.
 
 #include <boost/heap/d_ary_heap.hpp>
 
@@ -23,7 +24,8 @@ struct QueuedEvent {
   [[nodiscard]] bool before(const QueuedEvent& other) const {
     if (time != other.time) return time < other.time;
     if (lower != other.lower) return lower < other.lower;
-    return higher < other.higher;
+    if (higher != other.higher) return higher < other.higher;
+    return disk < other.disk;
   }
 };
 
