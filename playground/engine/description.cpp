@@ -105,8 +105,8 @@ std::string description(const Session& session) {
       "\"crossing\":{},",
       effects.square_well ? json_number(effects.square_well->depth) : "null",
       effects.square_well ? json_number(effects.square_well->width) : "null", json_text(simulation.engine()),
-      json_text(why_no_Z(effects)), Z ? json_number(Z->value) : "null", Z && !Z->of_so_many, json_number(scene.packing_fraction()),
-      json_number(session.crossing()));
+      json_text(why_no_Z(effects)), Z ? json_number(Z->value) : "null", Z && !Z->of_so_many,
+      json_number(scene.packing_fraction()), json_number(session.crossing()));
   json +=
       fmt::format("\"isCircle\":{},\"steps\":{},\"delta\":{},\"brownian\":{},", scene.box.is_circle, steps_json(effects),
                   effects.non_additivity ? json_number(effects.non_additivity->delta) : "null",

@@ -66,8 +66,7 @@ bool exchanges_uncounted_energy(const Effects& effects) {
     return wall.mass && (wall.restitution.value_or(1.0) != 1.0 || wall.temperature);
   };
   const bool slowed = effects.drag_rate() > 0.0;
-  return (slowed && effects.dissipate()) || (growing && effects.collision.roughness) ||
-         any_wall(effects, takes_or_heats);
+  return (slowed && effects.dissipate()) || (growing && effects.collision.roughness) || any_wall(effects, takes_or_heats);
 }
 
 double growth_before_changes(const Scene& scene, const Disks& disks) {
