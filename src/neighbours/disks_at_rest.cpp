@@ -69,6 +69,56 @@ void DisksAtRest::insert(std::int32_t i, const Eigen::Vector2d& position, const 
   next_[index] = std::exchange(first, i);
 }
 
+DisksAtRest::Range DisksAtRest::cells_near(const Layer& layer, int axis, double x, double radius) const {
+  const double reach = (radius + std::ldexp(2.0, layer.exponent)) * farthest_;
+  Range range{cell_of(layer, axis, x - reach), cell_of(layer, axis, x + reach)};
+  if (box_.periodic(axis)) return range;
+  range.from = std::clamp<std::int64_t>(range.from, 0, layer.cells[axis] - 1);
+  range.to = std::clamp<std::int64_t>(range.to, 0, layer.cells[axis] - 1);
+  return range;
+}
+
+template <class F>
+bool DisksAtRest::any_in(const Layer& layer, std::int64_t x, std::int64_t y, const Eigen::Vector2d& position, F&& f) const {
+  // On periodic axes cell x is cell x - n * cells, n box lengths further on.
+  const auto boxes_beyond = [](std::int64_t cell, std::int64_t cells) {
+    if (cell >= 0 && cell < cells) return std::int64_t{0};
+    return cell >= 0 ? cell / cells : (cell + 1) / cells - 1;
+  };
+  const std::int64_t n[2] = {boxes_beyond(x, layer.cells[0]), boxes_beyond(y, layer.cells[1])};
+  const std::int64_t cell = (y - n[1] * layer.cells[1]) * layer.cells[0] + (x - n[0] * layer.cells[0]);
+  for (std::int32_t j = layer.first[static_cast<std::size_t>(cell)]; j != none; j = next_[static_cast<std::size_t>(j)]) {
+    const Eigen::Vector2d& other = position_[static_cast<std::size_t>(j)];
+    if (f(j, Eigen::Vector2d(way(box_, 0, other[0], n[0], position[0]), way(box_, 1, other[1], n[1], position[1])))) return true;
+  }
+  return false;
+}
+
+bool DisksAtRest::overlaps(const Eigen::Vector2d& position, std::int32_t i) const {
+  const double radius = radius_[static_cast<std::size_t>(i)];
+  const auto overlaps_disk = [&](std::int32_t j, const Eigen::Vector2d& apart) {
+    if (j == i) return false;
+    const double sigma = (radius + radius_[static_cast<std::size_t>(j)]) * scales_.of_disks(i, j);
+    // Squares say it of most pairs; roots alone say it of those that touch by rounding, as deepest() does.
+    const double square = apart.squaredNorm(), contact = sigma * sigma;
+    const bool is_in_range = contact > 1e-290 && contact < 1e290;
+    if (is_in_range && square < contact * (1.0 - 1e-12)) return true;
+    if (is_in_range && square > contact * (1.0 + 1e-12)) return false;
+    return (sigma - apart.stableNorm()) / sigma > 0.0;
+  };
+  for (const Layer& layer : layers_) {
+    // Most places are taken by a disk of the same cell.
+    const std::int64_t own[2] = {std::clamp<std::int64_t>(cell_of(layer, 0, position[0]), 0, layer.cells[0] - 1),
+                                 std::clamp<std::int64_t>(cell_of(layer, 1, position[1]), 0, layer.cells[1] - 1)};
+    if (any_in(layer, own[0], own[1], position, overlaps_disk)) return true;
+    const Range xs = cells_near(layer, 0, position[0], radius), ys = cells_near(layer, 1, position[1], radius);
+    for (std::int64_t y = ys.from; y <= ys.to; ++y)
+      for (std::int64_t x = xs.from; x <= xs.to; ++x)
+        if ((x != own[0] || y != own[1]) && any_in(layer, x, y, position, overlaps_disk)) return true;
+  }
+  return false;
+}
+
 DisksAtRest::Neighbour DisksAtRest::deepest(const Eigen::Vector2d& position, std::int32_t i, bool larger_only,
                                             const Eigen::Vector2d& remainder) const {
   Neighbour found{none, 0.0};
@@ -76,34 +126,17 @@ DisksAtRest::Neighbour DisksAtRest::deepest(const Eigen::Vector2d& position, std
   const int own = std::ilogb(radius);
   for (const Layer& layer : layers_) {
     if (larger_only && layer.exponent < own) break;
-    const double reach = (radius + std::ldexp(2.0, layer.exponent)) * farthest_;
-    std::int64_t from[2];
-    std::int64_t to[2];
-    for (int a = 0; a < 2; ++a) {
-      from[a] = cell_of(layer, a, position[a] - reach);
-      to[a] = cell_of(layer, a, position[a] + reach);
-      if (box_.periodic(a)) continue;
-      from[a] = std::clamp<std::int64_t>(from[a], 0, layer.cells[a] - 1);
-      to[a] = std::clamp<std::int64_t>(to[a], 0, layer.cells[a] - 1);
-    }
-    for (std::int64_t y = from[1]; y <= to[1]; ++y) {
-      for (std::int64_t x = from[0]; x <= to[0]; ++x) {
-        // On periodic axes cell x is cell x - n * cells, n box lengths further on.
-        const std::int64_t n[2] = {x >= 0 ? x / layer.cells[0] : (x + 1) / layer.cells[0] - 1,
-                                   y >= 0 ? y / layer.cells[1] : (y + 1) / layer.cells[1] - 1};
-        const std::int64_t cell = (y - n[1] * layer.cells[1]) * layer.cells[0] + (x - n[0] * layer.cells[0]);
-        for (std::int32_t j = layer.first[static_cast<std::size_t>(cell)]; j != none; j = next_[static_cast<std::size_t>(j)]) {
-          if (j == i) continue;
+    const Range xs = cells_near(layer, 0, position[0], radius), ys = cells_near(layer, 1, position[1], radius);
+    for (std::int64_t y = ys.from; y <= ys.to; ++y)
+      for (std::int64_t x = xs.from; x <= xs.to; ++x)
+        (void)any_in(layer, x, y, position, [&](std::int32_t j, Eigen::Vector2d apart) {
+          if (j == i) return false;
           const double sigma = (radius + radius_[static_cast<std::size_t>(j)]) * scales_.of_disks(i, j);
-          const Eigen::Vector2d& other = position_[static_cast<std::size_t>(j)];
-          Eigen::Vector2d apart(way(box_, 0, other[0], n[0], position[0]), way(box_, 1, other[1], n[1], position[1]));
           if (!remainder_.empty()) apart += remainder_[static_cast<std::size_t>(j)] - remainder;
-          const double distance = apart.stableNorm();
-          const double overlap = (sigma - distance) / sigma;
+          const double overlap = (sigma - apart.stableNorm()) / sigma;
           if (overlap > found.relative_overlap) found = {j, overlap};
-        }
-      }
-    }
+          return false;
+        });
   }
   return found;
 }

@@ -38,6 +38,9 @@ class DisksAtRest {
   /// is then still seen, from its smaller partner.
   [[nodiscard]] Neighbour deepest(const Eigen::Vector2d& position, std::int32_t i, bool larger_only = false,
                                   const Eigen::Vector2d& remainder = Eigen::Vector2d::Zero()) const;
+  /// Returns whether disk i would overlap any disk in place at `position`; all were put there without remainders. Faster than
+  /// deepest(), which looks at all near it.
+  [[nodiscard]] bool overlaps(const Eigen::Vector2d& position, std::int32_t i) const;
 
  private:
   struct Layer {
@@ -49,6 +52,15 @@ class DisksAtRest {
   };
 
   [[nodiscard]] std::int64_t cell_of(const Layer& layer, int axis, double x) const;
+  /// The cells along an axis with all disks of a layer that disk i may overlap at x; on periodic axes it goes on beyond the
+  /// edges.
+  struct Range {
+    std::int64_t from, to;
+  };
+  [[nodiscard]] Range cells_near(const Layer& layer, int axis, double x, double radius) const;
+  /// Calls f(j, apart) for each disk j in a cell, `apart` from `position`, until it returns true; whether it did.
+  template <class F>
+  bool any_in(const Layer& layer, std::int64_t x, std::int64_t y, const Eigen::Vector2d& position, F&& f) const;
 
   Box box_;
   const std::vector<double>& radius_;

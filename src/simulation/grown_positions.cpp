@@ -153,7 +153,7 @@ class Growing {
         const double to = scene_.box.upper[a] - margin;
         position[a] = from < to ? boost::random::uniform_real_distribution<double>(from, to)(random) : 0.5 * (from + to);
       }
-      if (in_place.deepest(position, static_cast<std::int32_t>(i)).disk >= 0) continue;
+      if (in_place.overlaps(position, static_cast<std::int32_t>(i))) continue;
       if (!overlapped_shape(scene_.box, scene_.effects, position, disks_.radius[i], 0.0)) return position;
     }
     return std::nullopt;

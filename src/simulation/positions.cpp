@@ -167,7 +167,7 @@ class Placement {
         position[a] = from < to ? boost::random::uniform_real_distribution<double>(from, to)(random) : 0.5 * (from + to);
       }
       if (region && !detail::holds_disk(*region, position, radius)) continue;
-      if (in_place_.deepest(position, static_cast<std::int32_t>(i)).disk < 0 && !upon_shape(i, position, 0.0)) return position;
+      if (!in_place_.overlaps(position, static_cast<std::int32_t>(i)) && !upon_shape(i, position, 0.0)) return position;
     }
     if (region)
       throw detail::scene_error(

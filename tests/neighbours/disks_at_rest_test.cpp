@@ -109,6 +109,7 @@ RC_GTEST_PROP(PropertyDisksAtRest, ANewcomerMeetsItsDeepestNeighbour, ()) {
     const auto found = rest.deepest(place, i);
     RC_ASSERT(std::abs(found.relative_overlap - expected) <= rounding(disks));
     RC_ASSERT((found.disk < 0) == (found.relative_overlap == 0.0));
+    RC_ASSERT(rest.overlaps(place, i) == (found.disk >= 0));
     RC_ASSERT(found.disk < i);
     rest.insert(i, place);
   }
