@@ -3,6 +3,7 @@
 #include "core/instant.hpp"
 #include "observe/observable_group.hpp"
 #include "observe/observing_thread.hpp"
+#include "scene/walls.hpp"
 
 #include <carom/observe.hpp>
 
@@ -79,7 +80,8 @@ class Observation::Driver {
                         due.observables.front()->name(), time, now));
       simulation.state(state_);
       const Totals totals = simulation.totals();
-      for (Observable* observable : due.observables) observable->sample(state_, totals);
+      const State& seen = from_first_box(state_);
+      for (Observable* observable : due.observables) observable->sample(seen, totals);
       ++due.k;
     }
   }
@@ -99,7 +101,7 @@ class Observation::Driver {
 
   [[nodiscard]] std::vector<Measurement> results() {
     finish();
-    if (group_.follows_changes()) group_.end(simulation_.state(), simulation_.totals());
+    if (group_.follows_changes()) group_.end(from_first_box(simulation_.state()), simulation_.totals());
     return group_.results(simulation_.time(), simulation_.totals());
   }
 
@@ -111,6 +113,15 @@ class Observation::Driver {
     std::vector<Observable*> observables;
     std::uint64_t k = 0;
   };
+  /// Observables have the box that began. Where a change has stopped all walls, the box of the scene is another, and states do
+  /// not say any more where walls are: returns one that does.
+  const State& from_first_box(const State& state) {
+    const Box &first = group_.run().scene.box, &now = simulation_.scene().box;
+    if (!state.walls.empty() || (now.lower == first.lower && now.upper == first.upper)) return state;
+    seen_ = state;
+    seen_.walls = walls_at_rest(now);
+    return seen_;
+  }
   /// Observables know what acts when they are made, and the changes of the scene; of those of a program they are not told.
   void require_unchanged() const {
     if (simulation_.changes_by_program() == changes_before_) return;
@@ -152,16 +163,17 @@ class Observation::Driver {
     if (group_.follows_changes())
       hooks.change = [this, next = std::move(hooks.change)](bool made) {
         finish();  // all that came before it
-        group_.change(made, simulation_.scene().effects, simulation_.state(), simulation_.totals());
+        group_.change(made, simulation_.scene().effects, from_first_box(simulation_.state()), simulation_.totals());
         if (next) next(made);
       };
     if (steps_.empty()) steps_ = group_.by_step();  // not anew: hooks of an earlier run point to it
     for (const auto& [step, observables] : steps_) {
       const bool velocities_alone = std::ranges::none_of(observables, &Observable::needs_positions);
-      hooks.grids.push_back(
-          {step,
-           [sample, &of = observables](std::uint64_t, const State& state, const Totals& totals) { sample(of, state, totals); },
-           velocities_alone});
+      hooks.grids.push_back({step,
+                             [this, sample, &of = observables](std::uint64_t, const State& state, const Totals& totals) {
+                               sample(of, from_first_box(state), totals);
+                             },
+                             velocities_alone});
     }
   }
 
@@ -174,7 +186,7 @@ class Observation::Driver {
   bool begun_ = false;  ///< by sample()
   std::vector<Due> due_;
   std::vector<Event> events_;  ///< kept for its memory, as the state
-  State state_;
+  State state_, seen_;
 };
 
 void Observable::save(std::ostream& /*out*/) const { throw std::logic_error("the observable " + name() + " cannot be saved"); }

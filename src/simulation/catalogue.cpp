@@ -43,7 +43,7 @@ std::string why_not_single(const Scene& scene, const Disks& disks) {
 
 const std::vector<EngineEntry>& catalogue() {
   static const std::vector<EngineEntry> entries = {
-      {"fast", &why_not_fast, &make_fast, false, true},
+      {"fast", &why_not_fast, &make_fast, false, true, false},
       {"general", &why_not_general, &make_general, true, true},
       {"textbook", &never, &make_textbook<double>},
       {"textbook-float", &why_not_single, &make_textbook<float>},
@@ -53,10 +53,16 @@ const std::vector<EngineEntry>& catalogue() {
   return entries;
 }
 
-const EngineEntry& choose_engine(const Scene& scene, const Disks& disks, const std::string& engine, bool own_rule) {
+bool has_spins(const Scene& scene, const State& state) {
+  return scene.effects.collision.roughness && state.spins.size() > 0 && !state.spins.isZero(0.0);
+}
+
+const EngineEntry& choose_engine(const Scene& scene, const Disks& disks, const std::string& engine, const EngineNeeds& needs) {
   const auto& entries = catalogue();
   if (engine == "auto") {
-    const auto covering = [&](const auto& entry) { return (entry.takes_rules || !own_rule) && entry.covers(scene, disks); };
+    const auto covering = [&](const auto& entry) {
+      return (entry.takes_rules || !needs.own_rule) && (entry.keeps_spins || !needs.spins) && entry.covers(scene, disks);
+    };
     return *std::find_if(entries.begin(), entries.end(), covering);  // there is one: the textbook engine covers everything
   }
   const auto named = [&](const auto& entry) { return entry.name == engine; };
@@ -67,7 +73,10 @@ const EngineEntry& choose_engine(const Scene& scene, const Disks& disks, const s
   if (const std::string reason = entry->why_not(scene, disks); !reason.empty())
     throw std::invalid_argument(fmt::format(
         "the engine \"{}\" does not cover this scene: {}; leave the choice to carom, or take \"textbook\"", engine, reason));
-  if (own_rule && !entry->takes_rules)
+  if (needs.spins && !entry->keeps_spins)
+    throw std::invalid_argument(fmt::format(
+        "the engine \"{}\" does not keep the spins that disks have; leave the choice to carom, or take \"general\"", engine));
+  if (needs.own_rule && !entry->takes_rules)
     throw std::invalid_argument(fmt::format(
         "the engine \"{}\" does not call a collision rule of the program; leave the choice to carom, or take \"general\"",
         engine));
@@ -75,14 +84,15 @@ const EngineEntry& choose_engine(const Scene& scene, const Disks& disks, const s
 }
 
 std::string why_chosen(const EngineEntry& entry, const Scene& scene, const Disks& disks, const std::string& engine,
-                       bool own_rule) {
+                       const EngineNeeds& needs) {
   if (engine != "auto") return engine_was_asked_for;
   const auto& entries = catalogue();
   const auto same = [&](const auto& other) { return other.name == entry.name; };
   const auto position = std::find_if(entries.begin(), entries.end(), same);
   if (position != entries.begin()) {
-    std::string why = std::prev(position)->why_not(scene, disks);
-    return why.empty() && own_rule ? "a collision rule of the program acts" : why;
+    const std::string why = std::prev(position)->why_not(scene, disks);
+    if (!why.empty()) return why;
+    return needs.own_rule ? "a collision rule of the program acts" : "disks have spins";
   }
   return scene.box.periodic(0) && scene.box.periodic(1) ? "nothing but the collision rule acts"
                                                         : "nothing but the collision rule and hard walls acts";

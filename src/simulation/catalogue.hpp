@@ -20,6 +20,7 @@ struct EngineEntry {
 
   bool takes_rules = true;  ///< a program's own for collisions of pairs
   bool shares_out = false;  ///< runs on several cores where no effect keeps it on one
+  bool keeps_spins = true;  ///< of disks that collisions do not turn
 
   [[nodiscard]] bool covers(const Scene& scene, const Disks& disks) const { return why_not(scene, disks).empty(); }
 };
@@ -27,13 +28,22 @@ struct EngineEntry {
 /// In the order in which they are considered: the first that covers a scene runs it.
 const std::vector<EngineEntry>& catalogue();
 
+/// What an engine has to do beyond what the scene says.
+struct EngineNeeds {
+  bool own_rule = false;  ///< of the program acts in collisions
+  bool spins = false;     ///< has_spins()
+};
+/// Returns whether disks turn: a rough one keeps its spin where a change makes it smooth.
+[[nodiscard]] bool has_spins(const Scene& scene, const State& state);
+
 /// The named engine, or for "auto" the first of the catalogue that covers the scene. Throws std::invalid_argument where there is
-/// no such engine, or it does not cover the scene. `own_rule`: whether a collision rule of the program acts.
-const EngineEntry& choose_engine(const Scene& scene, const Disks& disks, const std::string& engine, bool own_rule = false);
+/// no such engine, or it does not cover the scene.
+const EngineEntry& choose_engine(const Scene& scene, const Disks& disks, const std::string& engine,
+                                 const EngineNeeds& needs = {});
 
 /// Why choose_engine() chose that entry, in half a sentence: for "auto", why the one before it could not run the scene.
 std::string why_chosen(const EngineEntry& entry, const Scene& scene, const Disks& disks, const std::string& engine,
-                       bool own_rule = false);
+                       const EngineNeeds& needs = {});
 
 /// An engine of that entry, driven from outside where the scene asks for it.
 std::unique_ptr<AnyEngine> make_engine(const EngineEntry& entry, const Scene& scene, const Disks& disks, State start);

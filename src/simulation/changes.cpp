@@ -82,7 +82,8 @@ std::array<OscillationClock, 4> Simulation::Parts::oscillation_clocks() const {
   return now.oscillations;
 }
 
-void Simulation::Parts::go_on(Scene with, State state, CollisionFunction with_rule) {
+/// `others_act`: disks may be in the way of what acts now.
+void Simulation::Parts::go_on(Scene with, State state, CollisionFunction with_rule, bool others_act) {
   require_rule();
   const bool own_rule = static_cast<bool>(with_rule);
   if (const auto* effect = detail::first_acting(with.effects, &detail::EffectTraits::changes_radii);
@@ -92,9 +93,14 @@ void Simulation::Parts::go_on(Scene with, State state, CollisionFunction with_ru
   settle(with, state);
   Start start = start_of(with, disks_of(with), state);
   require_between_walls(with, start.state);
-  const detail::EngineEntry& entry = detail::choose_engine(with, start.disks, engine_asked, own_rule);
-  std::string reason = detail::why_chosen(entry, with, start.disks, engine_asked, own_rule);
+  const detail::EngineNeeds needs{.own_rule = own_rule, .spins = detail::has_spins(with, start.state)};
+  const detail::EngineEntry& entry = detail::choose_engine(with, start.disks, engine_asked, needs);
+  std::string reason = detail::why_chosen(entry, with, start.disks, engine_asked, needs);
+  const bool has_slid = start.state.shear_displacement != 0.0;
   auto another = detail::make_engine(entry, with, start.disks, std::move(start.state));
+  // check_begun() sees no pairs across a sheared edge.
+  if (others_act && has_slid && !with.run.accept_overlap)
+    if (const auto faults = another->check_invariants(1e-9); !faults.empty()) throw SceneError({}, faults.front());
   if (own_rule) another->set_collision_rule(with_rule);
   continuation.pending.reset();
   engine->leave(continuation);
@@ -140,7 +146,7 @@ void Simulation::Parts::make_change() {
       if (begun.run.time) begun.run.time = std::max(0.0, *begun.run.time - change.time);
       check_begun(begun, state);
     }
-    go_on(std::move(changed), std::move(state), rule);
+    go_on(std::move(changed), std::move(state), rule, true);
   } catch (const SceneError& error) {
     refuse(error.sentence());
   } catch (const std::invalid_argument& error) {  // the engine that was asked for does not cover it
@@ -156,8 +162,10 @@ void Simulation::set_effects(const Effects& effects) {
   scene.effects.circle = circle;
   State state = parts_->engine->state();
   check_begun(begun_now(scene, state, parts_->oscillation_clocks(), parts_->engine_name == "textbook-float"), state);
-  parts_->go_on(std::move(scene), std::move(state), parts_->rule);
-  if (parts_->whole) parts_->whole->effects = detail::effects_of_whole_run(parts_->scene);
+  // Before anything changes: it throws where changes to come do not fit.
+  Effects of_whole_run = parts_->whole ? detail::effects_of_whole_run(scene) : Effects{};
+  parts_->go_on(std::move(scene), std::move(state), parts_->rule, true);
+  if (parts_->whole) parts_->whole->effects = std::move(of_whole_run);
   ++parts_->changes_by_program;
 }
 

@@ -19,6 +19,7 @@ class DragEngine final : public WrappedEngine {
 
   bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) override {
     if (at_rest_) return false;
+    if (target < now_) return true;
     const Instant end = later(zero_, target);
     const bool within = end < clock_.last_time();
     const bool arrived = engine_->run_until(on_clock(within ? clock_.clock(end) : clock_.last()), pair_limit, event_limit);

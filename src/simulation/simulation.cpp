@@ -286,8 +286,9 @@ std::vector<std::string> engines_covering(const Scene& scene) {
 }
 
 Simulation Simulation::begin(const Scene& scene, Start start, const std::string& engine) {
-  const detail::EngineEntry& entry = detail::choose_engine(scene, start.disks, engine);
-  std::string reason = detail::why_chosen(entry, scene, start.disks, engine);
+  const detail::EngineNeeds needs{.spins = detail::has_spins(scene, start.state)};
+  const detail::EngineEntry& entry = detail::choose_engine(scene, start.disks, engine, needs);
+  std::string reason = detail::why_chosen(entry, scene, start.disks, engine, needs);
   auto running = detail::make_engine(entry, scene, start.disks, std::move(start.state));
   Simulation simulation(
       std::unique_ptr<Parts>(new Parts{scene, std::move(start.disks), entry.name, std::move(running), std::move(reason)}));

@@ -462,5 +462,86 @@ TEST(SceneChanges, KeepDisksApartFarOutsideTheBox) {
     }
 }
 
+/// Rough disks that a change makes smooth keep their spins, whatever engine that lets run them.
+TEST(SceneChanges, KeepSpinsWhereDisksBecomeSmooth) {
+  const Scene scene = parse_scene(
+      "[box]\nx = [0, 10]\ny = [0, 10]\nboundary = \"periodic\"\n[[disks]]\nradius = 0.5\nmass = 1\npositions = [[2, 5], [5, "
+      "5.4]]\nvelocities = [[1, 0], [-1, 0]]\n[collision]\nrule = \"specular\"\nroughness = 1.0\n[run]\ntime = 14\n"
+      "[[changes]]\ntime = 3\nset = [\"collision.roughness=-1\"]\n[[changes]]\ntime = 4\nset = [\"collision.roughness=1\"]\n");
+  Simulation simulation = make_simulation(scene), textbook = make_simulation(scene, "textbook");
+  for (const double time : {3.0, 3.5, 14.0}) {
+    simulation.run_until(time);
+    textbook.run_until(time);
+    ASSERT_EQ(simulation.state().spins.size(), 2) << time;
+    EXPECT_GT(simulation.state().spins.cwiseAbs().minCoeff(), 0.5) << time;
+    EXPECT_TRUE(simulation.state().spins.isApprox(textbook.state().spins, 1e-12)) << time;
+  }
+}
+
+/// Where images slide, a pair that a change lets overlap is not seen by the scene that begins there.
+TEST(SceneChanges, AreRefusedWhereDisksOfAShearedBoxAreInTheWay) {
+  const auto scene = [](const std::string& rate) {
+    return parse_scene(
+        "[box]\nx = [0, 10]\ny = [0, 10]\nboundary = \"periodic\"\n[[disks]]\nradius = 0.5\nmass = 1\npositions = [[2, 5]]\n"
+        "velocities = [[0, 0]]\n[[disks]]\nradius = 0.5\nmass = 1\npositions = [[3.1, 5]]\nvelocities = [[0, 0]]\n[collision]\n"
+        "rule = \"specular\"\n[shear]\nrate = " +
+        rate + "\n[run]\ntime = 3\n[[changes]]\ntime = 1\nset = [\"non_additivity.delta=0.5\"]\n");
+  };
+  for (const char* rate : {"0.1", "-0.1", "0.0"}) {
+    Simulation simulation = make_simulation(scene(rate));
+    RunHooks hooks;
+    EXPECT_EQ(run_schedule(simulation, hooks).stopped, StopReason::blocked) << rate;
+    EXPECT_EQ(simulation.time(), 1.0) << rate;
+  }
+  Simulation simulation = make_simulation(scene("0.1"));
+  simulation.run_until(0.5);
+  Effects effects = simulation.scene().effects;
+  effects.non_additivity = NonAdditivity{0.5};
+  const std::string before = hash_of(simulation);
+  EXPECT_THROW(simulation.set_effects(effects), SceneError);
+  EXPECT_EQ(hash_of(simulation), before);
+}
+
+/// What a program asks for has to fit changes to come; where it does not, nothing has changed.
+TEST(SceneChanges, ToComeThatDoNotFitLeaveTheSimulationAsItWas) {
+  const Scene scene =
+      parse_scene(gas("[thermostat]\ntemperature = 1\nrate = 5\n[[changes]]\ntime = 2\nset = [\"thermostat.rate=0\"]\n"));
+  Simulation simulation = make_simulation(scene), twin = make_simulation(scene);
+  Effects effects = scene.effects;
+  effects.thermostat.reset();
+  EXPECT_THROW(simulation.set_effects(effects), SceneError);
+  EXPECT_TRUE(simulation.scene().effects.thermostat.has_value());
+  simulation.run_until(1.0);
+  twin.run_until(1.0);
+  EXPECT_EQ(hash_of(simulation), hash_of(twin));
+}
+
+/// Observables have the box that began: a wall that a change has stopped stands where it is, as one that hardly moves does.
+TEST(SceneChanges, ThatStopTheLastWallLeaveObservablesTheBoxThatIs) {
+  const auto measured = [](const std::string& speed) {
+    const Scene scene = parse_scene(
+        "[box]\nx = [0, 10]\ny = [0, 10]\nboundary = \"walls\"\n[[disks]]\nradius = 0.5\nmass = 1\npositions = [[2, 5], [2, 8]]\n"
+        "velocities = [[1, 0], [1, 0]]\n[collision]\nrule = \"specular\"\n[walls]\ntop = { velocity = 10.0 }\n[run]\ntime = 101\n"
+        "[observe]\npressure = { every = 0.5 }\nwall_fluxes = { every = 0.5 }\n[[changes]]\ntime = 1\nset = "
+        "[\"walls.top.velocity=" +
+        speed + "\"]\n");
+    Simulation simulation = make_simulation(scene);
+    Observation observation(simulation);
+    RunHooks hooks;
+    observation.attach(hooks);
+    run_schedule(simulation, hooks);
+    return observation.results();
+  };
+  const std::vector<Measurement> stopped = measured("0"), slow = measured("1e-13");
+  ASSERT_EQ(stopped.size(), slow.size());
+  for (std::size_t m = 0; m < slow.size(); ++m) {
+    ASSERT_EQ(stopped[m].scalars.size(), slow[m].scalars.size());
+    for (std::size_t s = 0; s < slow[m].scalars.size(); ++s)
+      if (const auto& value = slow[m].scalars[s].value) {
+        EXPECT_NEAR(stopped[m].scalars[s].value.value(), *value, 1e-9) << slow[m].scalars[s].name;
+      }
+  }
+}
+
 }  // namespace
 }  // namespace carom::test
