@@ -132,14 +132,19 @@ class Observable:
         if not isinstance(results, Mapping):
             raise TypeError(f"{self.name}.finish() returned {shown(results)}; give a mapping of names to Numbers, plain numbers and Tables")
         for name, found in results.items():
-            words(name, f"a name of what {self.name}.finish() returned")
+            what = f"{self.name}.{_result_name(name, self.name)}"
             if isinstance(found, Table):
-                columns = [(c, found.units.get(c, ""), [float(v) for v in found[c]]) for c in found]
+                columns = []
+                for c in found:
+                    unit = words(found.units.get(c, ""), f"the unit of {what}.{_result_name(c, what)}")
+                    columns.append((c, unit, [_float(v, f"{what}.{c}") for v in found[c]]))
                 tables.append((name, columns))
             elif isinstance(found, Number):
-                scalars.append((name, found.value, found.error, found.unit, found.integrated_correlation_time, found.note))
+                times = [None if v is None else _float(v, what) for v in (found.error, found.integrated_correlation_time)]
+                unit, note = words(found.unit, f"the unit of {what}"), words(found.note, f"the note of {what}")
+                scalars.append((name, _float(found.value, what), times[0], unit, times[1], note))
             else:
-                scalars.append((name, _float(found, f"{self.name}.{name}"), None, "", None, ""))
+                scalars.append((name, _float(found, what), None, "", None, ""))
         return scalars, tables
 
     def _save(self) -> bytes:
@@ -149,8 +154,17 @@ class Observable:
         self.__dict__.update(pickle.loads(saved))
 
 
+def _result_name(name: Any, of: str) -> str:
+    """Returns the name of a number, a table or a column, which is one in files too. Raises ValueError for what cannot be."""
+    if words(name, f"a name of what {of}.finish() returned") in ("", ".", "..") or "/" in name or "\0" in name:
+        raise ValueError(f"a result of {of} has the name {shown(name)}; take a word without /")
+    return str(name)
+
+
 def _float(value: Any, name: str) -> float:
     try:
         return float(value)
     except (TypeError, ValueError):
         raise TypeError(f"{name} is a {type(value).__name__}; results are Numbers, plain numbers and Tables") from None
+    except OverflowError:
+        raise ValueError(f"{name} is beyond the range of a double") from None

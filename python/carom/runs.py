@@ -174,6 +174,10 @@ def _own(observables: Iterable[Any], taken: Iterable[str] = ()) -> list[Observab
         names.add(name)
         if not 0.0 <= real(observable.step, f"the step of {name}") < math.inf:
             raise ValueError(f"the step of {name} is {shown(observable.step)}; give a time, or 0 where it takes no samples")
+        for attribute in ("needs_positions", "follows_collisions"):
+            value = getattr(observable, attribute)
+            if not isinstance(value, bool):
+                raise TypeError(f"{attribute} of {name} is {shown(value)}; give True or False")
     return own
 
 
@@ -307,9 +311,10 @@ def resume(
             else lambda now, done, equilibrating: report_fraction(0.0 if time is None else min(1.0, now / time))
         )
         own = _own(observables)
+        place = path_text(directory, "directory")
         call = partial(
             _files.resume,
-            path_text(directory, "directory"),
+            place,
             None if time is None else real(time, "time"),
             None if collisions is None else whole(collisions, "collisions"),
             own,
@@ -321,7 +326,7 @@ def resume(
         with _sentences():
             parts = _call_on_thread(_with_files(call), on_progress, bool(own))
         scene = Scene.parse(json.loads(parts[0])["resolved_scene"])
-        return _result(scene, Path(directory), parts)
+        return _result(scene, Path(place), parts)
 
 
 #: Words of the program's sentences about files, and what stands for them in Python.
@@ -385,6 +390,10 @@ def _call_on_thread(call: Callable[[Any], tuple[Any, ...]], on_progress: Any, ha
             if stop.is_set():
                 raise
             stop.set()
+        except BaseException:  # of a handler of another signal: not before the run has completed its files
+            stop.set()
+            ended.wait()
+            raise
     if isinstance(outcome[0], BaseException):
         raise outcome[0]
     parts: tuple[Any, ...] = outcome[0]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from os import PathLike
-from os.path import dirname
+from os.path import abspath, dirname
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeGuard, Union, cast
 
 import numpy as np
@@ -94,13 +94,13 @@ class Scene:
     def load(cls, path: str | PathLike[str], overrides: list[str] | None = None) -> Scene:
         """Reads a scene file. `overrides` are those of the program's --set, such as "run.time=2"."""
         place = path_text(path, "path")
-        return cls._of(_core.Scene.load(place, list_of_words(overrides or [], "overrides")), dirname(place) or ".")
+        return cls._of(_core.Scene.load(place, list_of_words(overrides or [], "overrides")), dirname(abspath(place)))
 
     @classmethod
     def parse(cls, text: str, directory: str | PathLike[str] = ".") -> Scene:
         """Reads a scene from TOML text. Start files that it names are searched in `directory`."""
         place = path_text(directory, "directory")
-        return cls._of(_core.Scene.parse(words(text, "the text"), _MADE, [], place), place)
+        return cls._of(_core.Scene.parse(words(text, "the text"), _MADE, [], place), abspath(place))
 
     @classmethod
     def preset(cls, name: str) -> Scene:

@@ -47,7 +47,9 @@ class Run:
         except OSError as error:
             raise OutputError(f"{file}: cannot read this file: {error.strerror}") from None
         except ValueError:
-            raise OutputError(f"{file}: this is not the summary of a run; copy it anew or run again") from None
+            self.summary = {}
+        if not isinstance(self.summary, dict) or "resolved_scene" not in self.summary:
+            raise OutputError(f"{file}: this is not the summary of a run; copy it anew or run again")
 
     def _read(self, action: Callable[[_files.RunReader], T]) -> T:
         """Returns what `action` reads. The file is open only meanwhile: all of a program share an open file as it was when it was opened."""

@@ -254,7 +254,11 @@ void add_colliding_pair(nb::module_& module) {
     return [member](CollidingPair& pair, const nb::object& value) {
       std::tuple<double, double> v;
       if (!nb::try_cast(value, v)) {
-        const std::string sentence = std::string("a velocity is ") + nb::repr(value).c_str() + "; give two numbers, (vx, vy)";
+        const nb::str shown = nb::repr(value);
+        const char* const text = shown.c_str();  // null where it is no Unicode
+        if (text == nullptr) PyErr_Clear();
+        const std::string sentence =
+            std::string("a velocity is ") + (text == nullptr ? "no pair of numbers" : text) + "; give two numbers, (vx, vy)";
         throw nb::type_error(sentence.c_str());
       }
       pair.*member = {std::get<0>(v), std::get<1>(v)};

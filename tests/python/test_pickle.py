@@ -72,6 +72,29 @@ def moved_on(sim: carom.Simulation) -> carom.Simulation:
     return sim
 
 
+def test_a_scene_with_a_start_file_pickles_for_any_directory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "sub").mkdir()
+    (tmp_path / "sub/start.csv").write_text("x,y,vx,vy\n1,1,1,0\n3,3,0,1\n")
+    text = """box = { x = [0, 4], y = [0, 4], boundary = "walls" }
+collision = { rule = "specular" }
+run = { time = 1.0 }
+[[disks]]
+radius = 0.5
+mass = 1.0
+positions = { file = "start.csv" }
+"""
+    (tmp_path / "sub/scene.toml").write_text(text)
+    monkeypatch.chdir(tmp_path)
+    loaded, parsed = carom.Scene.load("sub/scene.toml"), carom.Scene.parse(text, "sub")
+    simulation = carom.Simulation(loaded)
+    simulation.run_until(0.5)
+    pickles = [pickle.dumps(one) for one in (loaded, parsed, simulation)]
+    monkeypatch.chdir("/")
+    assert [pickle.loads(one).count for one in pickles] == [2, 2, 2]
+    assert pickle.loads(pickles[2]).state_hash == simulation.state_hash
+    assert loaded.set({"run.time": 2.0}).count == 2
+
+
 def test_simulations_go_to_other_processes_and_back(gas: carom.Scene) -> None:
     sims = [carom.Simulation(gas, seed=seed) for seed in (1, 2)]
     with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:

@@ -63,6 +63,18 @@ def test_playing_moves_the_simulation_as_run_until_does(gas: carom.Scene) -> Non
     assert played.state_hash == twin.state_hash
 
 
+def test_changes_made_while_it_is_played_last() -> None:
+    scene = carom.Scene.preset("box").set({"changes": [{"time": 0.5, "set": ["gravity.acceleration=[0, -0.7]"]}]})
+    played, twin = carom.Simulation(scene), carom.Simulation(scene)
+    played.play(1.0)
+    twin.run_until(1.0)
+    assert played.scene == twin.scene
+    for simulation in (played, twin):
+        simulation.set("tumbling", None)
+        simulation.run_until(2.0)
+    assert played.state_hash == twin.state_hash
+
+
 def test_it_plays_what_the_simulation_records(gas: carom.Scene) -> None:
     events = carom.Simulation(gas).record(10.0)
     page = carom.Simulation(gas).play(10.0)

@@ -306,6 +306,66 @@ def test_frames_that_a_run_gains_later_are_there(gas, tmp_path):
     assert [state.time for state in frames] == frames.time.tolist() == np.arange(0.0, 30.5, 0.5).tolist()
 
 
+class Odd(carom.Observable):
+    name = "odd"
+
+    def __init__(self, results):
+        self.results = results
+
+    def finish(self, time, collisions, virial):
+        return self.results
+
+
+@pytest.mark.parametrize(
+    ("results", "kind", "sentence"),
+    [
+        ({"x/y": 1.0}, ValueError, "a result of odd has the name 'x/y'; take a word without /"),
+        ({"": 1.0}, ValueError, "has the name ''"),
+        ({"t": carom.Table({"a\0b": [1.0]})}, ValueError, "take a word without /"),
+        ({"x": 10**400}, ValueError, "odd.x is beyond the range of a double"),
+        ({"x": carom.Number(1.0, error="small")}, TypeError, "odd.x is a str"),
+        ({"x": carom.Number(1.0, unit=3)}, TypeError, "the unit of odd.x is 3; give a string"),
+    ],
+    ids=["slash", "empty", "column", "huge", "error", "unit"],
+)
+def test_results_that_files_cannot_hold_are_refused(gas, results, kind, sentence):
+    with pytest.raises(kind) as refused:
+        carom.run(gas.set({"run.time": 0.5}), observables=[Odd(results)])
+    assert sentence in str(refused.value)
+
+
+def test_whether_an_observable_follows_collisions_is_a_bool(gas):
+    odd = Odd({})
+    odd.follows_collisions = 1
+    with pytest.raises(TypeError, match="follows_collisions of odd is 1; give True or False"):
+        carom.run(gas, observables=[odd])
+
+
+def test_what_a_signal_raises_ends_a_run_with_observables_of_ones_own(gas, tmp_path):
+    class OutOfTime(Exception):
+        pass
+
+    def ring(*_):
+        raise OutOfTime
+
+    before = signal.signal(signal.SIGALRM, ring)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.5)
+        with pytest.raises(OutOfTime):
+            carom.run(gas.set({"run.time": 1e6, "run.sample_every": 1e5}), observables=[Odd({})], out=tmp_path / "run")
+    finally:
+        signal.signal(signal.SIGALRM, before)
+    assert threading.active_count() == 1
+    assert carom.open_run(tmp_path / "run").summary["stopped"] == "interrupted"
+
+
+@pytest.mark.parametrize("text", ["[]", "{}", "3", "{"])
+def test_a_summary_that_is_none_is_refused(tmp_path, text):
+    (tmp_path / "summary.json").write_text(text)
+    with pytest.raises(carom.OutputError, match="this is not the summary of a run"):
+        carom.open_run(tmp_path)
+
+
 def test_a_run_with_springs_is_verified_with_their_stiffness(tmp_path, gas):
     specular = gas.set({"collision.rule": "specular"})
     result = carom.run(specular, out=tmp_path / "run", method="soft", dt=0.002, stiffness=2e3)

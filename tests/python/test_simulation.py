@@ -133,6 +133,15 @@ def test_events_are_the_records(gas: carom.Scene) -> None:
     assert events[0].partner_name == f"disk {events[0].partner}"
 
 
+@pytest.mark.parametrize("drag", [None, {"rate": 0.1}])
+def test_an_earlier_time_does_nothing(gas: carom.Scene, drag: Any) -> None:
+    sim = carom.Simulation(gas.set({"drag": drag}) if drag else gas)
+    sim.run_until(0.5)
+    before = sim.state_hash
+    sim.run_until(0.2)
+    assert sim.time == 0.5 and sim.state_hash == before
+
+
 def test_run_until_stops_at_a_number_of_collisions(gas: carom.Scene) -> None:
     sim = carom.Simulation(gas)
     assert sim.run_until(100.0, collisions=17) == carom.Stop.COLLISIONS == "collisions"
