@@ -66,7 +66,9 @@ bool exchanges_uncounted_energy(const Effects& effects) {
     return wall.mass && (wall.restitution.value_or(1.0) != 1.0 || wall.temperature);
   };
   const bool slowed = effects.drag_rate() > 0.0;
-  return (slowed && effects.dissipate()) || (growing && effects.collision.roughness) || any_wall(effects, takes_or_heats);
+  const std::optional<double>& roughness = effects.collision.roughness;
+  const bool spinning = roughness && (*roughness != -1.0 || effects.thermostat || effects.brownian);  // which turn disks too
+  return (slowed && effects.dissipate()) || (growing && spinning) || any_wall(effects, takes_or_heats);
 }
 
 double growth_before_changes(const Scene& scene, const Disks& disks) {

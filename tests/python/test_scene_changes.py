@@ -49,8 +49,8 @@ def test_the_scene_is_the_one_that_acts(go_on) -> None:
     assert sim.scene.to_dict()["collision"]["restitution"] == 0.5
 
 
-@pytest.mark.parametrize(("before", "change", "spinning"), [(0.5, "collision.roughness=-1", [1, 2]), (None, "collision.roughness=0.5", [3, 4])])
-def test_spins_are_zero_while_disks_are_smooth(before: float | None, change: str, spinning: list[int]) -> None:
+@pytest.mark.parametrize(("before", "change", "spinning"), [(0.5, "collision.roughness=-1", [1, 2, 3, 4]), (None, "collision.roughness=0.5", [3, 4])])
+def test_spins_begin_with_roughness_and_stay(before: float | None, change: str, spinning: list[int]) -> None:
     rough = {} if before is None else {"collision": {"rule": "specular", "roughness": before}}
     scene = changing(rough, change)
     frames = carom.Simulation(scene).sample(0.5, 2.0)

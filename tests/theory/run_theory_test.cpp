@@ -58,7 +58,8 @@ TEST(TheoryOfContactValues, IsGivenOnlyWhereNothingElseActs) {
   EXPECT_FALSE(contact_value("g_heavy_light", 0.5, "[thermostat]\ntemperature = 1.0\nrate = 1.0\n"));
   EXPECT_FALSE(contact_value("g_heavy_light", 0.5, "[square_well]\nwidth = 1.5\ndepth = 1.0\n"));
   const std::string lone =
-      "[[disks]]\nname = \"lone\"\nradius = 0.5\nmass = 1.0\npositions = \"random\"\nvelocities = { temperature = 1.0 }\n";
+      "[[disks]]\nname = \"lone\"\ncount = 1\nradius = 0.5\nmass = 1.0\npositions = \"random\"\nvelocities = { temperature = 1.0 "
+      "}\n";
   EXPECT_FALSE(contact_value("g_lone_lone", 0.5, lone)) << "there is no such pair";
   EXPECT_TRUE(contact_value("g_heavy_lone", 0.5, lone));
 }
