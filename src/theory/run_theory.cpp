@@ -71,7 +71,7 @@ std::optional<Expected> contact_value(const std::string& scalar, const TheorySou
       const std::string pair = run.suffix(a) + run.suffix(b);
       if (scalar != "g" + pair && scalar != "g_rate" + pair) continue;
       if (a == b && counts[a] < 2.0) return {};  // there is no such pair
-      if (all_equal(radius)) {  // it follows from Z, whatever masses and names are
+      if (all_equal(radius)) {                   // it follows from Z, whatever masses and names are
         const auto disks = static_cast<std::int64_t>(radius.size());
         const std::optional<Expected> Z = fluid_Z(eta, disks);
         return Z ? std::optional(contact_value_of(*Z, eta, disks)) : std::nullopt;
