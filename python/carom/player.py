@@ -35,11 +35,8 @@ def play(simulation: Simulation, until: float) -> Player:
     most = _files.most_events_of_a_player
     samples = max(2, min(_MOST_SAMPLES, _MOST_STATES // max(1, simulation.count)))
     step = (end - simulation.time) / samples
-    simulation._moved()  # so that it will ask anew, however many changes of the scene are made on the way
-    try:
-        states, log, reason = simulation._core.record_for_player(end, step if step > 0.0 else 1.0, most)
-    finally:
-        simulation._moved()
+    simulation._moved()
+    states, log, reason = simulation._core.record_for_player(end, step if step > 0.0 else 1.0, most)
     why_no_log = f"it has more than the {most} events that a page can hold"
     if simulation.dt is not None:
         why_no_log = "a fixed-step method has no collisions between two steps"
