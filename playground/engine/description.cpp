@@ -1,5 +1,6 @@
 #include "description.hpp"
 
+#include "core/all_equal.hpp"
 #include "json.hpp"
 #include "observe/equilibrium.hpp"
 #include "observe/mechanics.hpp"
@@ -8,8 +9,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <functional>
 #include <optional>
 #include <variant>
 
@@ -61,8 +60,7 @@ std::optional<theory::FluidZ> theory_Z(const Simulation& simulation) {
       !(eta <= theory::densest_fluid))
     return std::nullopt;
   if (detail::effect_named("non_additivity").acts(scene.effects)) return std::nullopt;
-  if (std::adjacent_find(disks.radius.begin(), disks.radius.end(), std::not_equal_to<>()) != disks.radius.end())
-    return std::nullopt;
+  if (!all_equal(disks.radius)) return std::nullopt;
   const bool periodic = scene.box.periodic(0) && scene.box.periodic(1);
   std::optional<theory::FluidZ> Z;
   if (periodic && theory::is_wide(scene.box, 2.0 * disks.radius.front(), eta)) Z = theory::fluid_Z(eta, scene.disk_count());

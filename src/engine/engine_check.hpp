@@ -28,22 +28,22 @@ std::vector<std::string> Engine<Impact, Layout, World>::check_invariants(double 
       if (world_.sheared() &&
           (flight_.height(i) != centre.y || std::abs(flight_.steps_up(i, line(i), now_)) > 0x1p63 * (1.0 + 1e-12)))
         faults.push_back(fmt::format("disk {}: outside the box of its neighbourhood", id(i)));
+    double rounding = 0.0;
+    if constexpr (!World::plain)  // obstacles, the rim of a circle and walls that have moved far are met at places that are
+                                  // rounded
+      rounding = 16.0 * epsilon<double> * flight_.place(a, now_).cwiseAbs().maxCoeff();
     for (int k = 0; k < 2; ++k) {
       const double off = flight_.offset(k, a, k == 0 ? centre.x : centre.y, now_);
       if (!(std::abs(off) <= lists_.half_width() + slack))
         faults.push_back(
             fmt::format("disk {}: outside its neighbourhood along axis {} by {}", id(i), k, std::abs(off) - lists_.half_width()));
       const double out = beyond_walls(i, k);
-      double rounding = 0.0;
-      if constexpr (!World::plain)  // the rim of a circle, and walls that have moved far, are met at places that are rounded
-        rounding = 16.0 * epsilon<double> * flight_.place(a, now_).cwiseAbs().maxCoeff();
       if (out > tolerated_overlap * layout_.radius(a) * world_.scale(now_) + 1e-12 * flight_.length(k) + rounding)
         faults.push_back(fmt::format("disk {}: {} beyond a wall across axis {}", id(i), out, k));
     }
     if constexpr (!World::plain) {
       const auto [obstacle, depth, contact] = overlap_with_obstacles(i);
-      // Obstacles are met by coordinates too, and are joined where their ends are within 1e-12 of the box.
-      const double rounding = 16.0 * epsilon<double> * flight_.place(a, now_).cwiseAbs().maxCoeff();
+      // Obstacles are joined where their ends are within 1e-12 of the box.
       if (depth > tolerated_overlap * contact + 1e-12 * (contact + flight_.length(0) + flight_.length(1)) + rounding)
         faults.push_back(fmt::format("disk {}: overlaps obstacles.{} by {}", id(i), obstacle, depth));
     }

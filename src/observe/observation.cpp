@@ -113,11 +113,10 @@ class Observation::Driver {
     std::vector<Observable*> observables;
     std::uint64_t k = 0;
   };
-  /// Observables have the box that began. Where a change has stopped all walls, the box of the scene is another, and states do
-  /// not say any more where walls are: returns one that does.
+  /// Observables have the box that began: returns a state that says where walls are, also where a change has stopped them.
   const State& from_first_box(const State& state) {
-    const Box &first = group_.run().scene.box, &now = simulation_.scene().box;
-    if (!state.walls.empty() || (now.lower == first.lower && now.upper == first.upper)) return state;
+    const Box& now = simulation_.scene().box;
+    if (!have_settled(state, group_.run().scene.box, now)) return state;
     seen_ = state;
     seen_.walls = walls_at_rest(now);
     return seen_;

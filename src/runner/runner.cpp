@@ -175,7 +175,7 @@ void Runner::read(const Checkpoint& from) {
 const State& Runner::as_in_files(const State& state) {
   const double grown = growth_before_changes(scene_, simulation_.disks());
   const Box& box = simulation_.scene().box;
-  const bool moved = state.walls.empty() && (box.lower != scene_.box.lower || box.upper != scene_.box.upper);
+  const bool moved = have_settled(state, scene_.box, box);
   if (grown == 1.0 && !moved) return state;
   in_files_ = state;
   in_files_.scale *= grown;

@@ -30,6 +30,12 @@ inline std::vector<WallState> walls_at_rest(const Box& box) {
   return walls;
 }
 
+/// Returns whether a change has stopped the last wall that moved, so that the box is another than the `first`, and the state does
+/// not say any more where walls are.
+inline bool have_settled(const State& state, const Box& first, const Box& now) {
+  return state.walls.empty() && (now.lower != first.lower || now.upper != first.upper);
+}
+
 /// Returns whether a wall can be anywhere but where the scene puts it.
 inline bool moves(const WallProperties& wall) {
   return wall.mass || wall.velocity.value_or(0.0) != 0.0 || (wall.oscillation && wall.oscillation->moves());

@@ -146,7 +146,7 @@ void Simulation::Parts::make_change() {
       if (begun.run.time) begun.run.time = std::max(0.0, *begun.run.time - change.time);
       check_begun(begun, state);
     }
-    go_on(std::move(changed), std::move(state), rule, true);
+    go_on(std::move(changed), std::move(state), rule, !std::holds_alternative<ScaleVelocities>(change.what));
   } catch (const SceneError& error) {
     refuse(error.sentence());
   } catch (const std::invalid_argument& error) {  // the engine that was asked for does not cover it

@@ -4,6 +4,7 @@
 
 #include "live/live_run.hpp"
 #include "observe/mechanics.hpp"
+#include "observe/observed_system.hpp"
 #include "support/effect_scenes.hpp"
 #include "support/refusal.hpp"
 #include "support/scenes.hpp"
@@ -525,12 +526,7 @@ TEST(SceneChanges, ThatStopTheLastWallLeaveObservablesTheBoxThatIs) {
         "[observe]\npressure = { every = 0.5 }\nwall_fluxes = { every = 0.5 }\n[[changes]]\ntime = 1\nset = "
         "[\"walls.top.velocity=" +
         speed + "\"]\n");
-    Simulation simulation = make_simulation(scene);
-    Observation observation(simulation);
-    RunHooks hooks;
-    observation.attach(hooks);
-    run_schedule(simulation, hooks);
-    return observation.results();
+    return observe(scene, 101.0).measurements;
   };
   const std::vector<Measurement> stopped = measured("0"), slow = measured("1e-13");
   ASSERT_EQ(stopped.size(), slow.size());
