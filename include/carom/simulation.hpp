@@ -98,6 +98,10 @@ struct SampleRange {
   std::uint64_t most = RunLimits::none;  ///< the run ends, as by `condition`, before the next sample
 };
 
+/// A function that is called some twenty times a second while disks are placed, with the fraction of that (0 to 1) that is done.
+/// It falls back where disks jam and are grown again. What the function throws ends the placing and reaches the caller.
+using PlacingHook = std::function<void(double fraction)>;
+
 class Simulation {
  public:
   Simulation(Simulation&&) noexcept;
@@ -229,9 +233,9 @@ class Simulation {
   void save(std::ostream& out) const;
 
  private:
-  friend Simulation make_simulation(const Scene& scene, const std::string& engine);
+  friend Simulation make_simulation(const Scene& scene, const std::string& engine, const PlacingHook& placing);
   friend Simulation make_simulation(const Scene& scene, const State& start, const std::string& engine);
-  friend Simulation make_simulation(const Scene& scene, const FixedStep& step);
+  friend Simulation make_simulation(const Scene& scene, const FixedStep& step, const PlacingHook& placing);
   friend Simulation make_simulation(const Scene& scene, const State& start, const FixedStep& step);
   friend Simulation restore_simulation(const Scene& scene, std::istream& in);
   friend void serve_ranks(Ranks& ranks);
@@ -245,10 +249,11 @@ class Simulation {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Draws the initial state and predicts the first events. `engine` is "auto" or a name of engine_names().
+/// Draws the initial state and predicts the first events. `engine` is "auto" or a name of engine_names(). Disks at random beyond
+/// a packing fraction of 0.5, and dense starts, may take seconds to minutes: `placing` is called meanwhile.
 /// Throws SceneError where check(scene) does, and when the disks cannot be placed as the scene asks; std::invalid_argument when
 /// there is no such engine.
-Simulation make_simulation(const Scene& scene, const std::string& engine = "auto");
+Simulation make_simulation(const Scene& scene, const std::string& engine = "auto", const PlacingHook& placing = {});
 
 /// Makes a simulation that begins with a given state in place of the scene's own start, at time 0: its positions, velocities and
 /// images, and what effects of this scene go on from: spins where there is roughness, the scale of radii where disks grow, places
@@ -265,7 +270,7 @@ Simulation make_simulation(const Scene& scene, const State& start, const std::st
 /// or dt is not positive, finite and short enough for positions to stay finite; where a stiffness is given to a method without
 /// springs, is not positive and finite, makes dt unstable, or would let the fastest disks of the start pass through each other or
 /// through a wall.
-Simulation make_simulation(const Scene& scene, const FixedStep& step);
+Simulation make_simulation(const Scene& scene, const FixedStep& step, const PlacingHook& placing = {});
 Simulation make_simulation(const Scene& scene, const State& start, const FixedStep& step);
 
 /// Returns the simulation that Simulation::save() wrote. It continues to the same bits. `scene` is the one with which that one

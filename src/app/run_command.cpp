@@ -7,6 +7,7 @@
 #include "app/terminal_summary.hpp"
 #include "io/provenance.hpp"
 #include "io/run_directory.hpp"
+#include "terminal/progress.hpp"
 #include "text/methods.hpp"
 
 #include <fmt/format.h>
@@ -33,14 +34,16 @@ std::filesystem::path directory_for(const RunOptions& options) {
   return std::filesystem::path(options.scene.path).stem();
 }
 
-/// Makes the simulation, by exact events or fixed steps, as the options say.
+/// Makes the simulation, by exact events or fixed steps, as the options say. Shows the progress of placing its disks.
 Simulation simulation_for(const RunOptions& options, const Scene& scene, const std::string& engine) {
+  ProgressLine line(progress_mode(options.progress, options.quiet), scene);
+  const auto placing = [&](double fraction) { line.update("placing disks", fraction); };
   if (options.method == "exact") {
     if (options.dt)
       throw UsageError("--dt is the step of a fixed-step method; exact events need none: leave it out, or give --method");
     if (options.stiffness)
       throw UsageError("--stiffness is that of the springs of --method soft; exact events have none: leave it out, or give both");
-    return make_simulation(scene, engine);
+    return make_simulation(scene, engine, placing);
   }
   const std::vector<std::string> names = fixed_step_names();
   if (std::find(names.begin(), names.end(), options.method) == names.end())
@@ -60,8 +63,8 @@ Simulation simulation_for(const RunOptions& options, const Scene& scene, const s
     throw UsageError(
         fmt::format("--dt {:g}: the run would take {:.1g} steps; take longer ones", *options.dt, *scene.run.time / *options.dt));
   try {
-    return make_simulation(
-        scene, FixedStep{options.method, options.dt.value_or(scene.run.sample_every.value_or(0.0)), options.stiffness});
+    const FixedStep step{options.method, options.dt.value_or(scene.run.sample_every.value_or(0.0)), options.stiffness};
+    return make_simulation(scene, step, placing);
   } catch (const std::invalid_argument& error) {
     throw UsageError(fmt::format("--method {}: {}", options.method, error.what()));
   }

@@ -173,7 +173,9 @@ AnyTuple run(const Scene& scene, const std::string& engine, const std::optional<
              std::optional<double> stiffness, const std::optional<std::string>& path, bool overwrite, const RunWishes& wishes) {
   Simulation simulation = [&] {
     const nb::gil_scoped_release released;
-    Simulation made = method ? make_simulation(scene, FixedStep{*method, dt, stiffness}) : make_simulation(scene, engine);
+    const auto placing = [](double) { look_at_python(); };
+    Simulation made =
+        method ? make_simulation(scene, FixedStep{*method, dt, stiffness}, placing) : make_simulation(scene, engine, placing);
     take_threads(made, wishes.threads);
     return made;
   }();

@@ -117,8 +117,9 @@ class Running {
                          const State* start) {
     const nb::gil_scoped_release released;
     if (start != nullptr) require_apart(scene, *start);
-    if (step) return start != nullptr ? make_simulation(scene, *start, *step) : make_simulation(scene, *step);
-    return start != nullptr ? make_simulation(scene, *start, engine) : make_simulation(scene, engine);
+    const auto placing = [](double) { look_at_python(); };
+    if (step) return start != nullptr ? make_simulation(scene, *start, *step) : make_simulation(scene, *step, placing);
+    return start != nullptr ? make_simulation(scene, *start, engine) : make_simulation(scene, engine, placing);
   }
 
   Simulation simulation_;

@@ -158,8 +158,8 @@ Simulation Simulation::begin(const Scene& scene, Start start, const FixedStep& s
       new Parts{scene, std::move(start.disks), entry->name, std::move(running), "", step.dt, step.stiffness}));
 }
 
-Simulation make_simulation(const Scene& scene, const FixedStep& step) {
-  Simulation simulation = Simulation::begin(scene, draw_start(scene), step);
+Simulation make_simulation(const Scene& scene, const FixedStep& step, const PlacingHook& placing) {
+  Simulation simulation = Simulation::begin(scene, draw_start(scene, placing), step);
   detail::require_springs_that_hold(simulation);
   return simulation;
 }

@@ -7,6 +7,7 @@
 #include "scene/fixed_shapes.hpp"
 #include "scene/refusal.hpp"
 #include "simulation/catalogue.hpp"
+#include "simulation/placing_watch.hpp"
 #include "simulation/start.hpp"
 
 #include <fmt/format.h>
@@ -56,7 +57,8 @@ constexpr std::uint64_t stirring = 1ull << 40;
 
 class Growing {
  public:
-  Growing(const Scene& scene, const Disks& disks) : scene_(scene), disks_(disks), final_fraction_(scene.packing_fraction()) {
+  Growing(const Scene& scene, const Disks& disks, const PlacingHook& placing)
+      : scene_(scene), disks_(disks), final_fraction_(scene.packing_fraction()), watch_(placing, [this] { return done_; }) {
     scene_.effects = Effects{};
     scene_.effects.obstacles = scene.effects.obstacles;
     scene_.effects.circle = scene.effects.circle;
@@ -70,38 +72,58 @@ class Growing {
 
   Eigen::Matrix2Xd run() {
     State state = small_disks();
-    if (!grow(state, 1.0) && !grow(state, slower_again)) refuse();
-    return state.positions;
+    for (const double slower : {1.0, slower_again}) {
+      whole_ = slower * time_to_grow(state.scale);
+      if (grow(state, slower)) return state.positions;
+    }
+    refuse();
   }
 
  private:
+  /// Returns the radii, over those in the end, at which disks of a stage have its packing fraction.
+  [[nodiscard]] double scale_at(const Stage& stage) const { return std::sqrt(std::min(stage.until / final_fraction_, 1.0)); }
+
+  /// Returns how long it takes the disks to grow from a scale to the end, where none of them jam.
+  [[nodiscard]] double time_to_grow(double scale) const {
+    double time = 0.0;
+    for (const Stage& stage : stages) {
+      time += std::max(scale_at(stage) - scale, 0.0) / stage.speed;
+      scale = std::max(scale, scale_at(stage));
+    }
+    return time * diameter_;
+  }
+
   /// True where all stages are passed. Where not, `state` is the one from which to try again.
   bool grow(State& state, double slower) {
     State now = state;
     for (const Stage& stage : stages) {
-      const double target = std::min(stage.until, final_fraction_);
-      if (now.scale >= std::sqrt(target / final_fraction_)) continue;
-      if (!grow_until(now, target, stage.speed / slower)) return false;
-      if (target <= passed_easily || target == final_fraction_) state = now;
+      if (now.scale >= scale_at(stage)) continue;
+      if (!grow_through(now, stage, slower)) return false;
+      if (stage.until <= passed_easily || stage.until >= final_fraction_) state = now;
     }
     return true;
   }
 
-  bool grow_until(State& state, double packing_fraction, double speed) {
-    scene_.effects.growth = Growth{speed / diameter_, packing_fraction, jammed_pressure};
+  bool grow_through(State& state, const Stage& stage, double slower) {
+    const double rate = stage.speed / slower / diameter_;
+    scene_.effects.growth = Growth{rate, std::min(stage.until, final_fraction_), jammed_pressure};
     const auto engine = detail::make_engine(detail::choose_engine(scene_, disks_, "auto"), scene_, disks_, state);
+    const double to_grow = slower * time_to_grow(state.scale);
     constexpr auto no_limit = std::numeric_limits<std::uint64_t>::max();
     // A disk wedged between obstacles and walls, with no other disk to press on, would fly to and fro ever faster.
     const std::uint64_t stretch = wedged_after + wedged_after_per_disk * disks_.count();
-    for (std::uint64_t pairs = no_limit; pairs != engine->counts().pair && !engine->ended() && !engine->is_stalled();) {
-      pairs = engine->counts().pair;
-      engine->run_until(forever, no_limit, stretch);
+    for (std::uint64_t without_pairs = 0; without_pairs < stretch && !engine->ended() && !engine->is_stalled();) {
+      const std::uint64_t pairs = engine->counts().pair, events = std::min(watch_.passes(), stretch);
+      engine->run_until(forever, no_limit, events);
+      without_pairs = pairs == engine->counts().pair ? without_pairs + events : 0;
+      done_ = 1.0 - (to_grow - engine->now().high) / whole_;
+      watch_.pass(events);
     }
     state = engine->state();
     state.time = 0.0;
     state.remainders.resize(2, 0);
     reached_ = std::max(reached_, state.scale * state.scale * final_fraction_);
-    return state.scale >= std::sqrt(packing_fraction / final_fraction_);
+    return state.scale >= scale_at(stage);
   }
 
   /// At random, without overlap, in places where they will still be clear of walls and obstacles when they are grown.
@@ -175,10 +197,15 @@ class Growing {
   double final_fraction_;
   double diameter_ = 1.0;  ///< root mean square
   double reached_ = 0.0;
+  double whole_ = 0.0;  ///< the time that growing takes, this time
+  double done_ = 0.0;   ///< the share of it that has passed
+  detail::PlacingWatch watch_;
 };
 
 }  // namespace
 
-Eigen::Matrix2Xd grown_positions(const Scene& scene, const Disks& disks) { return Growing(scene, disks).run(); }
+Eigen::Matrix2Xd grown_positions(const Scene& scene, const Disks& disks, const PlacingHook& placing) {
+  return Growing(scene, disks, placing).run();
+}
 
 }  // namespace carom

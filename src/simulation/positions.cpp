@@ -7,6 +7,7 @@
 #include "scene/fixed_shapes.hpp"
 #include "scene/refusal.hpp"
 #include "scene/regions.hpp"
+#include "simulation/placing_watch.hpp"
 #include "simulation/start.hpp"
 
 #include <fmt/format.h>
@@ -33,12 +34,13 @@ struct Ids {
 
 class Placement {
  public:
-  Placement(const Scene& scene, const Disks& disks)
+  Placement(const Scene& scene, const Disks& disks, const PlacingHook& placing)
       : scene_(scene),
         disks_(disks),
         scales_(contact_scales<double>(scene.effects, disks)),
         in_place_(scene.box, disks.radius, scales_),
-        positions_(2, static_cast<Eigen::Index>(disks.count())) {
+        positions_(2, static_cast<Eigen::Index>(disks.count())),
+        watch_(placing, [this] { return static_cast<double>(placed_) / static_cast<double>(disks_.count()); }) {
     std::int64_t first = 0;
     for (const Species& species : scene.species) {
       ids_.push_back({first, first + species.count});
@@ -61,6 +63,7 @@ class Placement {
   void put(std::int64_t i, const Eigen::Vector2d& position) {
     positions_.col(i) = position;
     in_place_.insert(static_cast<std::int32_t>(i), position);
+    ++placed_;
   }
 
   [[nodiscard]] std::optional<ShapeOverlap> upon_shape(std::int64_t i, const Eigen::Vector2d& position, double tolerance) const {
@@ -153,12 +156,13 @@ class Placement {
     for (const Waiting& disk : waiting) put(disk.id, find_room(disk.id, disk.species));
   }
 
-  Eigen::Vector2d find_room(std::int64_t i, std::size_t species) const {
+  Eigen::Vector2d find_room(std::int64_t i, std::size_t species) {
     const double radius = disks_.radius[static_cast<std::size_t>(i)];
     const auto& region = std::get<RandomPositions>(scene_.species[species].positions).region;
     const Rectangle within = region ? detail::bounds_of(*region) : Rectangle{scene_.box.lower, scene_.box.upper};
     RandomStream random(scene_.run.seed, Stream::positions, static_cast<std::uint64_t>(i));
     for (int tries = 0; tries < placement_tries; ++tries) {
+      watch_.pass();
       Eigen::Vector2d position;
       for (int a = 0; a < 2; ++a) {
         const double margin = scene_.box.periodic(a) && !region ? 0.0 : radius;
@@ -189,15 +193,18 @@ class Placement {
   DisksAtRest in_place_;
   Eigen::Matrix2Xd positions_;
   std::vector<Ids> ids_;  ///< of each species
+  std::int64_t placed_ = 0;
+  detail::PlacingWatch watch_;
 };
 
 }  // namespace
 
-Eigen::Matrix2Xd draw_positions(const Scene& scene, const Disks& disks) {
+Eigen::Matrix2Xd draw_positions(const Scene& scene, const Disks& disks, const PlacingHook& placing) {
   const auto is_grown = [](const Species& species) {
     return species.count > 0 && std::holds_alternative<GrownPositions>(species.positions);
   };
-  return std::ranges::any_of(scene.species, is_grown) ? grown_positions(scene, disks) : Placement(scene, disks).run();
+  return std::ranges::any_of(scene.species, is_grown) ? grown_positions(scene, disks, placing)
+                                                      : Placement(scene, disks, placing).run();
 }
 
 }  // namespace carom

@@ -297,8 +297,8 @@ Simulation Simulation::begin(const Scene& scene, Start start, const std::string&
   return simulation;
 }
 
-Simulation make_simulation(const Scene& scene, const std::string& engine) {
-  return Simulation::begin(scene, draw_start(scene), engine);
+Simulation make_simulation(const Scene& scene, const std::string& engine, const PlacingHook& placing) {
+  return Simulation::begin(scene, draw_start(scene, placing), engine);
 }
 
 Simulation make_simulation(const Scene& scene, const State& start, const std::string& engine) {

@@ -115,10 +115,10 @@ Disks disks_of(const Scene& scene) {
   return disks;
 }
 
-Start draw_start(const Scene& scene) {
+Start draw_start(const Scene& scene, const PlacingHook& placing) {
   Start start;
   start.disks = all_disks(scene);
-  start.state.positions = draw_positions(scene, start.disks);
+  start.state.positions = draw_positions(scene, start.disks, placing);
   start.state.velocities = draw_velocities(scene, start.disks);
   add_flow(scene, start);
   require_room_to_move(scene, start);

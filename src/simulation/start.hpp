@@ -2,6 +2,7 @@
 // The start of a run: which disks there are, where they are and how they move, as the scene asks.
 
 #include <carom/scene.hpp>
+#include <carom/simulation.hpp>
 #include <carom/state.hpp>
 
 namespace carom {
@@ -13,7 +14,7 @@ struct Start {
 
 /// Draws positions and velocities; the same scene and seed give the same bits.
 /// Throws SceneError where check(scene) does, where disks cannot be placed, or move across a gap that they fill.
-Start draw_start(const Scene& scene);
+Start draw_start(const Scene& scene, const PlacingHook& placing = {});
 
 /// The scene's disks in a given state, at time 0. Throws std::invalid_argument where the state does not belong to the scene's
 /// number of disks, or is not finite, or a position lies outside the box along a periodic axis; SceneError for what the scene
@@ -36,10 +37,10 @@ Disks all_disks(const Scene& scene);
 Disks disks_of(const Scene& scene);
 
 /// Column i of `positions` for every disk of every species, in the order of ids. Throws as draw_start.
-Eigen::Matrix2Xd draw_positions(const Scene& scene, const Disks& disks);
+Eigen::Matrix2Xd draw_positions(const Scene& scene, const Disks& disks, const PlacingHook& placing);
 
 /// The dense start. Throws SceneError where the disks jam before they have their size.
-Eigen::Matrix2Xd grown_positions(const Scene& scene, const Disks& disks);
+Eigen::Matrix2Xd grown_positions(const Scene& scene, const Disks& disks, const PlacingHook& placing);
 
 /// Column i of `velocities` for every disk of every species, in the order of ids. Throws as draw_start. Where no velocity is
 /// given one by one, the total momentum along periodic axes is removed; temperatures are met exactly. Neither is done where the

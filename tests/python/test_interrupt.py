@@ -57,6 +57,16 @@ def test_every_engine_can_be_interrupted(engine: str) -> None:
     assert sim.time > 0 and sim.check_invariants() == []
 
 
+@pytest.mark.parametrize("positions", ["random", "dense"])
+@pytest.mark.parametrize("make", [carom.Simulation, carom.run])
+def test_the_placing_of_disks_can_be_interrupted(positions: str, make: Callable[[carom.Scene], object]) -> None:
+    packing_fraction = {"random": 0.5465, "dense": 0.84}[positions]
+    side = math.sqrt(100_000 * math.pi / 4 / packing_fraction)
+    disks = {"count": 100_000, "radius": 0.5, "positions": positions}
+    scene = carom.Scene.from_dict({"box": {"size": [side, side]}, "disks": [disks], "run": {"collisions": 1}})
+    interrupted(lambda: make(scene))
+
+
 @pytest.mark.parametrize("method", carom.fixed_step_methods())
 def test_every_fixed_step_can_be_interrupted(gas: carom.Scene, method: str) -> None:
     sim, twin = (carom.Simulation(gas, method=method, dt=1e-3) for _ in range(2))

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <stdexcept>
 
 namespace carom::test {
 namespace {
@@ -79,6 +80,24 @@ TEST(DenseStart, IsTheSameToTheLastBitForTheSameSeed) {
   Scene other = scene;
   other.run.seed = 2;
   EXPECT_FALSE(same_bits(once, draw_start(other).state.positions));
+}
+
+TEST(DenseStart, IsTheSameForAProgramThatWatches) {
+  const Scene scene = dense(50, 0.75, Boundary::walls, Boundary::periodic, 1.4);
+  const PlacingHook watching = [](double fraction) {
+    EXPECT_GE(fraction, 0.0);
+    EXPECT_LE(fraction, 1.0);
+  };
+  EXPECT_TRUE(same_bits(draw_start(scene).state.positions, draw_start(scene, watching).state.positions));
+}
+
+TEST(DenseStart, EndsWithWhatThePlacingHookThrows) {
+  const auto enough = [](double) { throw std::domain_error("enough"); };
+  const Scene dense_one = dense(20'000, 0.84, Boundary::periodic, Boundary::periodic);  // which takes many seconds
+  EXPECT_THROW((void)make_simulation(dense_one, "auto", enough), std::domain_error);
+  Scene random_one = dense(20'000, 0.546, Boundary::periodic, Boundary::periodic);  // and so does this
+  random_one.species.front().positions = RandomPositions{};
+  EXPECT_THROW((void)make_simulation(random_one, FixedStep{"naive", 0.1}, enough), std::domain_error);
 }
 
 TEST(DenseStart, OwesNothingToMassesVelocitiesAndEffects) {
