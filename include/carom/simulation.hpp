@@ -169,10 +169,10 @@ class Simulation {
   /// does not cover it; std::logic_error for a fixed-step method, and within a hook of run_schedule(). Then nothing is changed.
   void set_effects(const Effects& effects);
 
-  /// Gives all disks these velocities, one column per disk, and where they spin and `spins` is not empty these spins. All else
-  /// goes on as under set_effects(). The energy that it takes is counted nowhere. Throws std::invalid_argument where there is not
-  /// one finite velocity, and spin, per disk; SceneError where speeds are beyond what can be computed with; std::logic_error as
-  /// above.
+  /// Gives all disks these velocities, one column per disk, and where the scene has a roughness and `spins` is not empty these
+  /// spins. All else goes on as under set_effects(). The energy that it takes is counted nowhere. Throws std::invalid_argument
+  /// where there is not one finite velocity, and spin, per disk; SceneError where speeds are beyond what can be computed with;
+  /// std::logic_error as above.
   void set_velocities(const Eigen::Matrix2Xd& velocities, const Eigen::VectorXd& spins = {});
 
   /// Returns how many times set_effects(), set_velocities() and set_collision_rule() have changed the simulation.
@@ -256,12 +256,13 @@ class Simulation {
 Simulation make_simulation(const Scene& scene, const std::string& engine = "auto", const PlacingHook& placing = {});
 
 /// Makes a simulation that begins with a given state in place of the scene's own start, at time 0: its positions, velocities and
-/// images, and what effects of this scene go on from: spins where there is roughness, the scale of radii where disks grow, places
-/// of moving walls and velocities of pistons, the displacement of images that slide. The rest is dropped, remainders too, so that
-/// every engine begins with the same numbers. The scene is checked as above. Throws std::invalid_argument too where any of it is
-/// not finite, a position is outside the box, or there is not one position and one velocity for each of the scene's disks. The
-/// same holds for images and spins, of which there is one for each disk or none, and for walls, which are four or none. Disks may
-/// overlap: those that do and approach each other collide at once.
+/// images, and what effects of this scene go on from: spins where there is roughness (of smooth disks the engine "fast" takes
+/// none but zeros), the scale of radii where disks grow, places of moving walls and velocities of pistons, the displacement of
+/// images that slide. The rest is dropped, remainders too, so that every engine begins with the same numbers. The scene is
+/// checked as above. Throws std::invalid_argument too where any of it is not finite, a position is outside the box, or there is
+/// not one position and one velocity for each of the scene's disks. The same holds for images and spins, of which there is one
+/// for each disk or none, and for walls, which are four or none. Disks may overlap: those that do and approach each other collide
+/// at once.
 Simulation make_simulation(const Scene& scene, const State& start, const std::string& engine = "auto");
 
 /// Makes a simulation that advances the scene by a fixed-step method in place of exact events. A state between two steps is that

@@ -47,7 +47,9 @@ struct State {
   /// 2 x N; length; exact position minus `positions`. It is 2 x 0 where the engine knows no more than doubles hold.
   Eigen::Matrix2Xd remainders = {};
 
-  Eigen::VectorXd spins = {};         ///< N angular velocities, 1 / time, counter-clockwise; length 0 where disks are smooth
+  /// N angular velocities, 1 / time, counter-clockwise. The length is 0 in scenes without a roughness, and may be where it is -1,
+  /// the value of smooth disks, and none of them spins.
+  Eigen::VectorXd spins = {};
   double scale = 1.0;                 ///< radii are scale * Disks::radius
   std::vector<WallState> walls = {};  ///< left, right, bottom, top; empty where none of them moves
   std::uint64_t bonds = 0;            ///< number of pairs within each other's square well, or within the outermost step

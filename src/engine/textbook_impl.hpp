@@ -280,13 +280,14 @@ template <class Real>
 std::vector<std::string> TextbookEngine<Real>::check_invariants(double tolerated_overlap) const {
   std::vector<std::string> faults;
   const Real tolerance = Real(1e-12) + 1000 * epsilon<Real>;
-  // Positions are rounded at their size, which far from the origin is not that of the box; where disks grow, by half an epsilon
-  // more at every epoch, which each rescaling of velocities begins: a disk that is too slow to move by that stays where it is and
-  // grows.
+  // Positions are rounded at their size, which far from the origin, or where walls have moved far, is not that of the box; where
+  // disks grow, by half an epsilon more at every epoch, which each rescaling of velocities begins: a disk that is too slow to
+  // move by that stays where it is and grows.
   const Real epochs = world_.expansion > 0 ? Real(static_cast<double>(totals_.numerics.epochs)) : Real(0);
-  const Real rounding =
-      (16 + epochs / 2) * epsilon<Real> *
-      std::max(world_.edges.domain().lower.cwiseAbs().maxCoeff(), world_.edges.domain().upper.cwiseAbs().maxCoeff());
+  const SimulationBox<Real>& domain = world_.edges.domain();
+  Real farthest = std::max(domain.lower.cwiseAbs().maxCoeff(), domain.upper.cwiseAbs().maxCoeff());
+  for (std::int32_t i = 0; i < count(); ++i) farthest = std::max<Real>(farthest, position(record(i), now_).cwiseAbs().maxCoeff());
+  const Real rounding = (16 + epochs / 2) * epsilon<Real> * farthest;
   for (std::int32_t i = 0; i < count(); ++i) {
     const Record& a = record(i);
     const Vec2<Real> r = position(a, now_);

@@ -2,6 +2,7 @@
 
 #include "core/running_totals.hpp"
 #include "scene/listed_disks.hpp"
+#include "simulation/start.hpp"
 
 #include <fmt/format.h>
 
@@ -236,9 +237,7 @@ void LiveRun::begin_again(const Scene& with, const State& state) {
   scene.box = box_of(scene.box, state);
   list_disks(scene, state);
   Simulation another = make_simulation(scene, state);
-  // Pairs that overlap across a sheared edge are not seen when it is made.
-  if (state.shear_displacement != 0.0 && !scene.run.accept_overlap)
-    if (const auto faults = another.check_invariants(1e-9); !faults.empty()) throw SceneError({}, faults.front());
+  require_apart_in_shear(scene, another.state());
   before_ += simulation_.time();
   add_counts(counts_before_, simulation_.counts());
   simulation_ = std::move(another);

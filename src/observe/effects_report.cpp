@@ -67,7 +67,9 @@ bool exchanges_uncounted_energy(const Effects& effects) {
   };
   const bool slowed = effects.drag_rate() > 0.0;
   const std::optional<double>& roughness = effects.collision.roughness;
-  const bool spinning = roughness && (*roughness != -1.0 || effects.thermostat || effects.brownian);  // which turn disks too
+  const bool turned =
+      (effects.thermostat && effects.thermostat->rate > 0.0) || (effects.brownian && effects.brownian->rate > 0.0);
+  const bool spinning = roughness && (*roughness != -1.0 || turned);
   return (slowed && effects.dissipate()) || (growing && spinning) || any_wall(effects, takes_or_heats);
 }
 

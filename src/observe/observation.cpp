@@ -1,9 +1,9 @@
 // Hands states and collisions of a run to its observables.
 
 #include "core/instant.hpp"
+#include "observe/first_terms.hpp"
 #include "observe/observable_group.hpp"
 #include "observe/observing_thread.hpp"
-#include "scene/walls.hpp"
 
 #include <carom/observe.hpp>
 
@@ -80,7 +80,7 @@ class Observation::Driver {
                         due.observables.front()->name(), time, now));
       simulation.state(state_);
       const Totals totals = simulation.totals();
-      const State& seen = from_first_box(state_);
+      const State& seen = in_first_terms_(state_);
       for (Observable* observable : due.observables) observable->sample(seen, totals);
       ++due.k;
     }
@@ -101,7 +101,7 @@ class Observation::Driver {
 
   [[nodiscard]] std::vector<Measurement> results() {
     finish();
-    if (group_.follows_changes()) group_.end(from_first_box(simulation_.state()), simulation_.totals());
+    if (group_.follows_changes()) group_.end(in_first_terms_(simulation_.state()), simulation_.totals());
     return group_.results(simulation_.time(), simulation_.totals());
   }
 
@@ -113,14 +113,6 @@ class Observation::Driver {
     std::vector<Observable*> observables;
     std::uint64_t k = 0;
   };
-  /// Observables have the box that began: returns a state that says where walls are, also where a change has stopped them.
-  const State& from_first_box(const State& state) {
-    const Box& now = simulation_.scene().box;
-    if (!have_settled(state, group_.run().scene.box, now)) return state;
-    seen_ = state;
-    seen_.walls = walls_at_rest(now);
-    return seen_;
-  }
   /// Observables know what acts when they are made, and the changes of the scene; of those of a program they are not told.
   void require_unchanged() const {
     if (simulation_.changes_by_program() == changes_before_) return;
@@ -135,7 +127,7 @@ class Observation::Driver {
     begun_ = true;
     group_.follow_log();
     for (const auto& [step, observables] : group_.by_step()) due_.push_back({step, observables});
-    group_.start(simulation.state());
+    group_.start(in_first_terms_(simulation.state()));
     if (group_.follows_collisions()) simulation.record_events(true);
   }
 
@@ -146,7 +138,7 @@ class Observation::Driver {
     hooks.start = [this, next = std::move(hooks.start)](const State& state) {
       require_unchanged();
       finish();  // of an earlier run
-      group_.start(state);
+      group_.start(in_first_terms_(state));
       if (next) next(state);
     };
     if (gets_records())
@@ -162,7 +154,7 @@ class Observation::Driver {
     if (group_.follows_changes())
       hooks.change = [this, next = std::move(hooks.change)](bool made) {
         finish();  // all that came before it
-        group_.change(made, simulation_.scene().effects, from_first_box(simulation_.state()), simulation_.totals());
+        group_.change(made, simulation_.scene().effects, in_first_terms_(simulation_.state()), simulation_.totals());
         if (next) next(made);
       };
     if (steps_.empty()) steps_ = group_.by_step();  // not anew: hooks of an earlier run point to it
@@ -170,7 +162,7 @@ class Observation::Driver {
       const bool velocities_alone = std::ranges::none_of(observables, &Observable::needs_positions);
       hooks.grids.push_back({step,
                              [this, sample, &of = observables](std::uint64_t, const State& state, const Totals& totals) {
-                               sample(of, from_first_box(state), totals);
+                               sample(of, in_first_terms_(state), totals);
                              },
                              velocities_alone});
     }
@@ -185,7 +177,8 @@ class Observation::Driver {
   bool begun_ = false;  ///< by sample()
   std::vector<Due> due_;
   std::vector<Event> events_;  ///< kept for its memory, as the state
-  State state_, seen_;
+  State state_;
+  FirstTerms in_first_terms_{simulation_};
 };
 
 void Observable::save(std::ostream& /*out*/) const { throw std::logic_error("the observable " + name() + " cannot be saved"); }

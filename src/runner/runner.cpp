@@ -3,8 +3,6 @@
 #include "core/seconds.hpp"
 #include "core/state_archive.hpp"
 #include "io/partial_file.hpp"
-#include "observe/effects_report.hpp"
-#include "scene/walls.hpp"
 #include "simulation/start.hpp"
 
 #include <fmt/format.h>
@@ -61,7 +59,7 @@ RunResult Runner::simulate(const RunnerHooks& hooks) {
   schedule.sample = [&](std::uint64_t k, const State& state) {
     measurements_.sample(state);
     const Totals totals = simulation_.totals();
-    const State& kept = as_in_files(state);
+    const State& kept = in_first_terms_(state);
     if (writer_) writer_->sample(k, kept, totals);
     if (hooks.sample) hooks.sample(kept, totals);
   };
@@ -168,19 +166,6 @@ void Runner::read(const Checkpoint& from) {
       archive(start_.emplace());
     });
   from.read("files", [&](std::istream& in) { writer_.emplace(*directory_, scene_, disks_of(scene_), provenance_, in); });
-}
-
-/// Files and frames have the radii and the box of the scene that began, a scale, and where walls are. Where a change has ended
-/// the growth of disks, the simulation has larger radii and the scale 1; where one has stopped all walls, it has another box.
-const State& Runner::as_in_files(const State& state) {
-  const double grown = growth_before_changes(scene_, simulation_.disks());
-  const Box& box = simulation_.scene().box;
-  const bool moved = have_settled(state, scene_.box, box);
-  if (grown == 1.0 && !moved) return state;
-  in_files_ = state;
-  in_files_.scale *= grown;
-  if (moved) in_files_.walls = walls_at_rest(box);
-  return in_files_;
 }
 
 /// Observables keep the steps that followed from the end which the run began with; from another end others would follow.

@@ -6,6 +6,7 @@
 #include "io/provenance.hpp"
 #include "io/run_directory.hpp"
 #include "io/run_writer.hpp"
+#include "observe/first_terms.hpp"
 #include "observe/run_measurements.hpp"
 #include "observe/run_report.hpp"
 #include "pages/report_page.hpp"
@@ -83,7 +84,6 @@ class Runner {
   [[nodiscard]] bool is_due(const SavingMoment& moment) const;
   void save(const SavingMoment& moment, const RunnerHooks& hooks);
   void read(const Checkpoint& from);
-  [[nodiscard]] const State& as_in_files(const State& state);
   [[nodiscard]] std::string scene_with_steps() const;
   void write_report(RunnerOutcome& outcome) const;
 
@@ -94,7 +94,7 @@ class Runner {
   const RunnerOptions options_;
   const Checkpoint* from_;
   std::optional<SavingPlan> plan_;
-  State in_files_;  ///< kept from sample to sample for its memory
+  FirstTerms in_first_terms_{simulation_};
   RunMeasurements measurements_;
   std::optional<Observation> observation_;
   std::optional<RunWriter> writer_;

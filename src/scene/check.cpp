@@ -196,12 +196,17 @@ void check_overlaps(const Scene& scene) {
   const auto second = static_cast<std::size_t>(overlap.second);  // the later of the two is the one to move
   const double contact = (radii[first] + radii[second]) * scales.of_disks(overlap.first, overlap.second);
   throw Refusal(path_of_position(given[second].species, given[second].row),
-                fmt::format("disks {} and {} overlap by {:.6g}; their centres must be at least {:.6g} apart, or run them as they "
-                            "are with --accept-overlap (accept_overlap = true in [run])",
-                            given[first].id, given[second].id, overlap.relative * contact, contact));
+                sentence_of_overlap(given[first].id, given[second].id, overlap.relative * contact, contact));
 }
 
 }  // namespace
+
+std::string sentence_of_overlap(std::int64_t one, std::int64_t other, double overlap, double contact) {
+  return fmt::format(
+      "disks {} and {} overlap by {:.6g}; their centres must be at least {:.6g} apart, or run them as they "
+      "are with --accept-overlap (accept_overlap = true in [run])",
+      one, other, overlap, contact);
+}
 
 void check_box(const Box& box) {
   for (int axis = 0; axis < 2; ++axis) {

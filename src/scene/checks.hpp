@@ -29,6 +29,8 @@ inline constexpr double random_limit = 0.547;
 inline constexpr double most_countable = 9007199254740992.0;  // 2^53
 inline constexpr const char* axis_names[] = {"x", "y"};
 
+/// Returns what is wrong with two disks that overlap by a length, and how far apart their centres must be at least.
+std::string sentence_of_overlap(std::int64_t one, std::int64_t other, double overlap, double contact);
 /// Returns the positions of a species that gives them one by one; else none.
 std::span<const Eigen::Vector2d> given_positions(const Species& species);
 

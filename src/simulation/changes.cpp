@@ -49,6 +49,14 @@ Scene begun_now(Scene scene, const State& state, const std::array<OscillationClo
   return scene;
 }
 
+/// Throws as check() does where what acts now does not fit the disks as they are. `begun` is a scene of begun_now().
+void check_going_on(const Scene& begun, const State& state) {
+  check_begun(begun, state);
+  State as_large = state;
+  as_large.scale = 1.0;
+  require_apart_in_shear(begun, as_large);
+}
+
 /// Walls that do not move any more stand where they are; disks that do not grow any more keep their size.
 void settle(Scene& scene, State& state) {
   for (std::size_t k = 0; k < state.walls.size(); ++k) {
@@ -82,8 +90,7 @@ std::array<OscillationClock, 4> Simulation::Parts::oscillation_clocks() const {
   return now.oscillations;
 }
 
-/// `others_act`: disks may be in the way of what acts now.
-void Simulation::Parts::go_on(Scene with, State state, CollisionFunction with_rule, bool others_act) {
+void Simulation::Parts::go_on(Scene with, State state, CollisionFunction with_rule) {
   require_rule();
   const bool own_rule = static_cast<bool>(with_rule);
   if (const auto* effect = detail::first_acting(with.effects, &detail::EffectTraits::changes_radii);
@@ -96,11 +103,7 @@ void Simulation::Parts::go_on(Scene with, State state, CollisionFunction with_ru
   const detail::EngineNeeds needs{.own_rule = own_rule, .spins = detail::has_spins(with, start.state)};
   const detail::EngineEntry& entry = detail::choose_engine(with, start.disks, engine_asked, needs);
   std::string reason = detail::why_chosen(entry, with, start.disks, engine_asked, needs);
-  const bool has_slid = start.state.shear_displacement != 0.0;
   auto another = detail::make_engine(entry, with, start.disks, std::move(start.state));
-  // check_begun() sees no pairs across a sheared edge.
-  if (others_act && has_slid && !with.run.accept_overlap)
-    if (const auto faults = another->check_invariants(1e-9); !faults.empty()) throw SceneError({}, faults.front());
   if (own_rule) another->set_collision_rule(with_rule);
   continuation.pending.reset();
   engine->leave(continuation);
@@ -144,9 +147,9 @@ void Simulation::Parts::make_change() {
       if (const Instant next = changed.changes.empty() ? forever : Instant{changed.changes.front().time, 0.0}; next < forever)
         begun.run.time = next.high;
       if (begun.run.time) begun.run.time = std::max(0.0, *begun.run.time - change.time);
-      check_begun(begun, state);
+      check_going_on(begun, state);
     }
-    go_on(std::move(changed), std::move(state), rule, !std::holds_alternative<ScaleVelocities>(change.what));
+    go_on(std::move(changed), std::move(state), rule);
   } catch (const SceneError& error) {
     refuse(error.sentence());
   } catch (const std::invalid_argument& error) {  // the engine that was asked for does not cover it
@@ -161,10 +164,10 @@ void Simulation::set_effects(const Effects& effects) {
   scene.effects = effects;
   scene.effects.circle = circle;
   State state = parts_->engine->state();
-  check_begun(begun_now(scene, state, parts_->oscillation_clocks(), parts_->engine_name == "textbook-float"), state);
+  check_going_on(begun_now(scene, state, parts_->oscillation_clocks(), parts_->engine_name == "textbook-float"), state);
   // Before anything changes: it throws where changes to come do not fit.
   Effects of_whole_run = parts_->whole ? detail::effects_of_whole_run(scene) : Effects{};
-  parts_->go_on(std::move(scene), std::move(state), parts_->rule, true);
+  parts_->go_on(std::move(scene), std::move(state), parts_->rule);
   if (parts_->whole) parts_->whole->effects = std::move(of_whole_run);
   ++parts_->changes_by_program;
 }
@@ -176,8 +179,9 @@ void Simulation::set_velocities(const Eigen::Matrix2Xd& velocities, const Eigen:
   State state = parts_->engine->state();
   state.velocities = velocities;
   if (spins.size() > 0) {
-    if (spins.size() != state.spins.size())
-      throw std::invalid_argument(fmt::format("{} spins are given for {} disks that spin", spins.size(), state.spins.size()));
+    const Eigen::Index spinning = parts_->scene.effects.collision.roughness ? state.positions.cols() : 0;
+    if (spins.size() != spinning)
+      throw std::invalid_argument(fmt::format("{} spins are given for {} disks that spin", spins.size(), spinning));
     state.spins = spins;
   }
   parts_->go_on(parts_->scene, std::move(state), parts_->rule);

@@ -70,7 +70,7 @@ struct Simulation::Parts {
   [[nodiscard]] std::array<OscillationClock, 4> oscillation_clocks() const;
   /// Goes on with another engine, from this state in this scene, which has been checked. Throws as make_simulation() does from a
   /// state; then all is as it was.
-  void go_on(Scene with, State state, CollisionFunction with_rule, bool others_act = false);
+  void go_on(Scene with, State state, CollisionFunction with_rule);
   /// The time of the next of the scene's changes; `forever` where none is to come.
   [[nodiscard]] Instant next_change() const {
     const bool equilibrates = scene.run.equilibrate && !clock_began;

@@ -1,5 +1,8 @@
 #include "simulation/start.hpp"
 
+#include "neighbours/sheared_overlap.hpp"
+#include "scene/checks.hpp"
+#include "scene/contact_scales.hpp"
 #include "scene/effect_traits.hpp"
 #include "scene/mean_flow.hpp"
 #include "scene/refusal.hpp"
@@ -132,6 +135,20 @@ void check_begun(const Scene& scene, const State& state) {
   Scene slid = scene;
   slid.run.accept_overlap = true;
   check(slid);
+}
+
+void require_apart_in_shear(const Scene& scene, const State& state) {
+  if (scene.run.accept_overlap || state.shear_displacement == 0.0 || !detail::MeanFlow(scene.box, scene.effects).present())
+    return;
+  const Disks disks = disks_of(scene);
+  std::vector<double> radii = disks.radius;
+  for (double& radius : radii) radius *= state.scale;
+  const ContactScales<double> scales = contact_scales<double>(scene.effects, disks);
+  const DeepestOverlap found = deepest_overlap_in_shear(scene.box, radii, state, scales);
+  if (!(found.relative > detail::touching)) return;
+  const double contact = (radii[static_cast<std::size_t>(found.first)] + radii[static_cast<std::size_t>(found.second)]) *
+                         scales.of_disks(found.first, found.second);
+  throw SceneError({}, detail::sentence_of_overlap(found.first, found.second, found.relative * contact, contact));
 }
 
 Start start_from(const Scene& scene, const State& state) {

@@ -25,6 +25,10 @@ Start start_from(const Scene& scene, const State& state);
 /// slid: how far they have is in the state alone.
 void check_begun(const Scene& scene, const State& state);
 
+/// Throws SceneError where images that have slid make disks overlap, as check() does where none have, unless the scene accepts
+/// overlaps.
+void require_apart_in_shear(const Scene& scene, const State& state);
+
 /// Does as start_from() for a scene that has been checked, and for these disks.
 Start start_of(const Scene& scene, Disks disks, const State& state);
 

@@ -134,6 +134,10 @@ TEST_F(EffectsOfARun, NeutralValuesTakeNothingFromTheReport) {
   scene_.effects.walls[0].restitution = 1.0;
   scene_.effects.walls[3].velocity = 0.0;
   EXPECT_EQ(report().energy_supplied, plain.energy_supplied);
+  scene_.effects.thermostat = Thermostat{1.0, 0.0};
+  scene_.effects.brownian = Brownian{1.0, 0.0};
+  EXPECT_EQ(report().energy_supplied, plain.energy_supplied);
+  scene_.effects.brownian.reset();
   scene_.effects.thermostat = Thermostat{1.0, 1.0};
   EXPECT_FALSE(report().energy_supplied) << "it turns the disks, whose moment of inertia grows in flight";
   scene_.effects.thermostat.reset();

@@ -63,7 +63,7 @@ def test_the_placing_of_disks_can_be_interrupted(positions: str, make: Callable[
     packing_fraction = {"random": 0.5465, "dense": 0.84}[positions]
     side = math.sqrt(100_000 * math.pi / 4 / packing_fraction)
     disks = {"count": 100_000, "radius": 0.5, "positions": positions}
-    scene = carom.Scene.from_dict({"box": {"size": [side, side]}, "disks": [disks], "run": {"collisions": 1}})
+    scene = carom.Scene({"box": {"size": [side, side]}, "disks": [disks], "run": {"collisions": 1}})
     interrupted(lambda: make(scene))
 
 

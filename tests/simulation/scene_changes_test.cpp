@@ -489,10 +489,14 @@ TEST(SceneChanges, AreRefusedWhereDisksOfAShearedBoxAreInTheWay) {
         rate + "\n[run]\ntime = 3\n[[changes]]\ntime = 1\nset = [\"non_additivity.delta=0.5\"]\n");
   };
   for (const char* rate : {"0.1", "-0.1", "0.0"}) {
-    Simulation simulation = make_simulation(scene(rate));
-    RunHooks hooks;
-    EXPECT_EQ(run_schedule(simulation, hooks).stopped, StopReason::blocked) << rate;
-    EXPECT_EQ(simulation.time(), 1.0) << rate;
+    for (const char* engine : {"general", "textbook"}) {  // by no check of their own: textbook compares few disks only
+      Simulation simulation = make_simulation(scene(rate), engine);
+      RunHooks hooks;
+      const RunResult result = run_schedule(simulation, hooks);
+      EXPECT_EQ(result.stopped, StopReason::blocked) << rate;
+      EXPECT_EQ(simulation.time(), 1.0) << rate;
+      EXPECT_THAT(result.blocked_by, HasSubstr("disks 0 and 1 overlap by 0.4; their centres must be at least 1.5 apart")) << rate;
+    }
   }
   Simulation simulation = make_simulation(scene("0.1"));
   simulation.run_until(0.5);
@@ -515,6 +519,23 @@ TEST(SceneChanges, ToComeThatDoNotFitLeaveTheSimulationAsItWas) {
   simulation.run_until(1.0);
   twin.run_until(1.0);
   EXPECT_EQ(hash_of(simulation), hash_of(twin));
+}
+
+/// Observables have the radii that began and a scale, as files have, also where a change has ended the growth.
+TEST(SceneChanges, ThatEndGrowthLeaveObservablesTheScaleThatIs) {
+  Simulation simulation = make_simulation(parse_scene(
+      "[box]\nx = [0, 10]\ny = [0, 10]\nboundary = \"walls\"\n[[disks]]\nradius = 0.5\nmass = 1\npositions = [[2, 5]]\n"
+      "velocities = [[1, 0]]\n[collision]\nrule = \"specular\"\n[growth]\nrate = 0.1\n[run]\ntime = 4\n"
+      "[[changes]]\ntime = 2\nset = [\"growth.rate=0\"]\n"));
+  Observation observation(simulation);
+  Record record;
+  observation.add(std::make_unique<Recorder>(1.0, record));
+  RunHooks hooks;
+  observation.attach(hooks);
+  run_schedule(simulation, hooks);
+  std::vector<double> scales;
+  for (const State& state : record.states) scales.push_back(state.scale);
+  EXPECT_THAT(scales, testing::Pointwise(testing::DoubleNear(1e-14), {1.0, 1.1, 1.2, 1.2, 1.2}));
 }
 
 /// Observables have the box that began: a wall that a change has stopped stands where it is, as one that hardly moves does.
