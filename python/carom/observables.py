@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import pickle
+import re
 from collections.abc import Mapping
 from typing import Any
 
@@ -112,7 +113,10 @@ class Observable:
         """
 
     def finish(self, time: float, collisions: int, virial: float) -> Mapping[str, Any]:
-        """Is called when the run has ended. Returns the results by name: Numbers, plain numbers, and Tables."""
+        """Is called when the run has ended. Returns the results by name: Numbers, plain numbers, and Tables.
+
+        Where an earlier table of the run has the name of one, the later gets the name of its observable and _ before its own.
+        """
         return {}
 
     # What the library calls.
@@ -134,15 +138,19 @@ class Observable:
         for name, found in results.items():
             what = f"{self.name}.{_result_name(name, self.name)}"
             if isinstance(found, Table):
+                if not re.fullmatch(r"[A-Za-z0-9_]{1,100}", name):
+                    raise ValueError(f"a table of {self.name} has the name {shown(name)}, and a file of its own; take at most 100 letters, digits and underscores")
                 columns = []
                 for c in found:
                     unit = words(found.units.get(c, ""), f"the unit of {what}.{_result_name(c, what)}")
                     columns.append((c, unit, [_float(v, f"{what}.{c}") for v in found[c]]))
                 tables.append((name, columns))
             elif isinstance(found, Number):
-                times = [None if v is None else _float(v, what) for v in (found.error, found.integrated_correlation_time)]
+                error, time = found.error, found.integrated_correlation_time
+                error = None if error is None else _float(error, f"the error of {what}")
+                time = None if time is None else _float(time, f"the correlation time of {what}")
                 unit, note = words(found.unit, f"the unit of {what}"), words(found.note, f"the note of {what}")
-                scalars.append((name, _float(found.value, what), times[0], unit, times[1], note))
+                scalars.append((name, _float(found.value, what), error, unit, time, note))
             else:
                 scalars.append((name, _float(found, what), None, "", None, ""))
         return scalars, tables
@@ -156,8 +164,8 @@ class Observable:
 
 def _result_name(name: Any, of: str) -> str:
     """Returns the name of a number, a table or a column, which is one in files too. Raises ValueError for what cannot be."""
-    if words(name, f"a name of what {of}.finish() returned") in ("", ".", "..") or "/" in name or "\0" in name:
-        raise ValueError(f"a result of {of} has the name {shown(name)}; take a word without /")
+    if words(name, f"a name of what {of}.finish() returned") in ("", ".", "..", "note", "tables") or re.search(r'[/,"\x00-\x1f]', name):
+        raise ValueError(f"a result of {of} has the name {shown(name)}; take a word without / and commas, and none of note and tables")
     return str(name)
 
 

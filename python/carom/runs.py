@@ -252,6 +252,7 @@ def run(
 
     from carom import _files
 
+    place = None if out is None else path_text(out, "out")
     with reporting(progress, "run") as report_fraction:
         call = partial(
             _files.run,
@@ -260,7 +261,7 @@ def run(
             None if method is None else words(method, "method"),
             dt or 0.0,
             None if stiffness is None else real(stiffness, "stiffness"),
-            None if out is None else path_text(out, "out"),
+            place,
             bool(overwrite),
             own,
             None if checkpoint_every is None else words(checkpoint_every, "checkpoint_every"),
@@ -270,10 +271,10 @@ def run(
             bool(frames),
         )
         on_progress = _progress_callback(given, report_fraction)
-        if out is None:
+        if place is None:
             return _result(given, None, _call_on_thread(call, on_progress, bool(own)))
         with _sentences():
-            return _result(given, Path(out), _call_on_thread(_with_files(call), on_progress, bool(own)))
+            return _result(given, Path(place), _call_on_thread(_with_files(call), on_progress, bool(own)))
 
 
 def resume(
@@ -383,6 +384,7 @@ def _call_on_thread(call: Callable[[Any], tuple[Any, ...]], on_progress: Any, ha
         ended.set()
 
     threading.Thread(target=work, name="carom.run", daemon=True).start()
+    raised: BaseException | None = None
     while not ended.is_set():
         try:
             ended.wait(0.05)
@@ -390,12 +392,13 @@ def _call_on_thread(call: Callable[[Any], tuple[Any, ...]], on_progress: Any, ha
             if stop.is_set():
                 raise
             stop.set()
-        except BaseException:  # of a handler of another signal: not before the run has completed its files
+        except BaseException as error:  # of a handler of another signal: not before the run has completed its files
             stop.set()
-            ended.wait()
-            raise
+            raised = raised or error
     if isinstance(outcome[0], BaseException):
         raise outcome[0]
+    if raised is not None:
+        raise raised
     parts: tuple[Any, ...] = outcome[0]
     return (*parts[:_INTERRUPTED], stop.is_set() or parts[_INTERRUPTED], *parts[_INTERRUPTED + 1 :])
 

@@ -81,11 +81,11 @@ class Scene:
         if mapping is not None and not isinstance(mapping, Mapping):
             raise TypeError(f"a scene is {shown(mapping)}; give a mapping, or the path of a scene file to Scene.load()")
         self._core = _parsed(scene_text({**(mapping or {}), **tables}), _MADE, [], ".")
-        self._directory = "."
+        self._directory = abspath(".")
         self._toml: str | None = None
 
     @classmethod
-    def _of(cls, core: _core.Scene, directory: str = ".") -> Scene:
+    def _of(cls, core: _core.Scene, directory: str) -> Scene:
         scene = cls.__new__(cls)
         scene._core, scene._directory, scene._toml = core, directory, None
         return scene
@@ -105,7 +105,7 @@ class Scene:
     @classmethod
     def preset(cls, name: str) -> Scene:
         """Returns one of the scenes that come with carom, such as "box"; `carom.presets()` lists them."""
-        return cls._of(_core.Scene.parse(_core.preset(words(name, "the name")), f"{name}.toml", [], "."))
+        return cls._of(_core.Scene.parse(_core.preset(words(name, "the name")), f"{name}.toml", [], "."), abspath("."))
 
     def set(self, changes: Mapping[str, Any]) -> Scene:
         """Returns the scene with other values for some keys.

@@ -16,6 +16,10 @@ if TYPE_CHECKING:
     from carom.frames import Floats
 
 
+#: How far a coordinate in single precision may be beyond where it is, as a part of it.
+_SINGLE = 1e-6
+
+
 @dataclass(frozen=True, eq=False)
 class Start:
     """Disks as another program has left them, for `Scene.with_disks()`.
@@ -25,8 +29,8 @@ class Start:
         velocities: shape (N, 2), length / time; None where the source has none.
         radii, masses: shape (N,); None where the source has none.
         box: ((x_low, x_high), (y_low, y_high)), for `Scene(box={"x": start.box[0], "y": start.box[1], ...})`; None where the source
-            has none. A universe has lengths alone: its box begins at 0, or has 0 in its middle where a coordinate is negative and
-            none is beyond half a length.
+            has none. A universe has lengths alone: along x and along y its box begins at 0, or has 0 in its middle where only that
+            holds all centres. Where both do, it is as along the other axis.
 
     GSD files leave out what is the default of their format: velocities of 0, diameters and masses of 1 are None.
     """
@@ -105,6 +109,10 @@ def _of_gsd(path: str, frame: int) -> Start:
     )
 
 
+def _limits(length: float, centred: bool) -> tuple[float, float]:
+    return (-float(length) / 2, float(length) / 2) if centred else (0.0, float(length))
+
+
 def _of_universe(source: Any, frame: int) -> Start:
     universe, atoms = source.universe, source.atoms
     here = universe.trajectory.frame
@@ -115,7 +123,7 @@ def _of_universe(source: Any, frame: int) -> Start:
         size = None if universe.trajectory.ts.dimensions is None else universe.trajectory.ts.dimensions.copy()
     finally:
         universe.trajectory[here]
-    if size is not None and np.any(size[3:] != 90):
+    if size is not None and size[5] != 90:
         raise ValueError("the box of the universe leans; a start has a rectangular box")
 
     def column(name: str) -> Floats | None:
@@ -127,7 +135,9 @@ def _of_universe(source: Any, frame: int) -> Start:
     box = None
     if size is not None:
         lengths = size[:2].astype(np.float64)
-        is_centred = bool(np.any(positions < 0) and np.all(np.abs(positions) <= lengths / 2))
-        x, y = (float(length) for length in lengths)
-        box = ((-x / 2, x / 2), (-y / 2, y / 2)) if is_centred else ((0.0, x), (0.0, y))
+        fits_middle = np.max(np.abs(positions), axis=0, initial=0.0) <= 0.5 * lengths * (1 + _SINGLE)
+        fits_zero = np.min(positions, axis=0, initial=0.0) >= -_SINGLE * lengths
+        centred = fits_middle & ~fits_zero
+        centred |= fits_middle & fits_zero & centred[::-1]
+        box = _limits(lengths[0], centred[0]), _limits(lengths[1], centred[1])
     return Start(positions, velocities, column("radii"), column("masses"), box)

@@ -201,8 +201,11 @@ class StoredFrames:
         return self._run._read(lambda reader: State._of(reader.sample(frame_number(k, reader.samples) % reader.samples)))
 
     def __iter__(self) -> Iterator[State]:
-        for k in range(len(self)):
-            yield self[k]
+        frames = len(self)
+        at_once = max(1, min(64, 1_000_000 // max(1, self.scene.count)))  # to open the file takes as long as to read thousands of disks
+        for first in range(0, frames, at_once):
+            numbers = range(first, min(first + at_once, frames))
+            yield from self._run._read(lambda reader, numbers=numbers: [State._of(reader.sample(k)) for k in numbers])
 
     def __repr__(self) -> str:
         return f"<carom.StoredFrames in {self._path}>"

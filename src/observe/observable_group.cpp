@@ -11,12 +11,27 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <set>
 #include <sstream>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace carom {
+
+namespace {
+
+/// Every table has a file by its name: one whose name is taken gets that of its observable before it.
+void tell_tables_apart(std::vector<Measurement>& measured) {
+  std::set<std::string> taken;
+  for (Measurement& one : measured)
+    for (Table& table : one.tables)
+      while (!taken.insert(table.name).second) table.name = one.name + "_" + table.name;
+}
+
+}  // namespace
 
 ObservableGroup::ObservableGroup(const ObservedRun& run)
     : run_(run), acting_(*run.acting), changes_(run.changes_made), meter_(run.scene, run.disks) {
@@ -159,6 +174,7 @@ std::vector<Measurement> ObservableGroup::results(double time, const Totals& tot
     if (!on_errors.empty()) note += (note.empty() ? "" : "; ") + on_errors;
   }
   note_drifts(measured, run_.scene);
+  tell_tables_apart(measured);
   return measured;
 }
 

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <istream>
 #include <iterator>
 #include <memory>
@@ -33,8 +34,9 @@ static_assert(sizeof(PairCollision) == 144 && offsetof(PairCollision, disk) == 8
 
 class PythonObservable final : public Observable {
  public:
-  explicit PythonObservable(nb::object object)
+  PythonObservable(nb::object object, FinishFailed failed)
       : object_(std::move(object)),
+        failed_(std::move(failed)),
         name_(nb::cast<std::string>(object_.attr("name"))),
         step_(nb::cast<double>(object_.attr("step"))),
         needs_positions_(nb::cast<bool>(object_.attr("needs_positions"))),
@@ -89,6 +91,9 @@ class PythonObservable final : public Observable {
     [[nodiscard]] const PairCollision* data() const { return collisions->data(); }
   };
 
+  /// Does as finish(). Requires the lock.
+  Measurement measured(double time, const Totals& totals);
+
   /// Hands on the collisions that wait. Their memory is used again where Python does not keep it. Requires the lock.
   void hand_over() {
     if (waiting_->empty()) return;
@@ -99,6 +104,7 @@ class PythonObservable final : public Observable {
   }
 
   nb::object object_;
+  FinishFailed failed_;
   std::string name_;
   double step_;
   bool needs_positions_, follows_collisions_;
@@ -107,6 +113,16 @@ class PythonObservable final : public Observable {
 
 Measurement PythonObservable::finish(double time, const Totals& totals) {
   const nb::gil_scoped_acquire locked;
+  try {
+    return measured(time, totals);
+  } catch (const std::exception&) {
+    if (!failed_) throw;
+    failed_(std::current_exception());
+    return {.name = name_};
+  }
+}
+
+Measurement PythonObservable::measured(double time, const Totals& totals) {
   hand_over();
   using Scalars =
       std::vector<std::tuple<std::string, double, std::optional<double>, std::string, std::optional<double>, std::string>>;
@@ -130,7 +146,9 @@ Measurement PythonObservable::finish(double time, const Totals& totals) {
 
 }  // namespace
 
-std::unique_ptr<Observable> observable_of(const nb::object& object) { return std::make_unique<PythonObservable>(object); }
+std::unique_ptr<Observable> observable_of(const nb::object& object, FinishFailed failed) {
+  return std::make_unique<PythonObservable>(object, std::move(failed));
+}
 
 nb::tuple tuple_of(const Measurement& measurement) {
   nb::list scalars, tables;

@@ -119,6 +119,7 @@ class PythonRun {
       const nb::gil_scoped_release released;
       return runner_.run(hooks);
     }();
+    if (raised_) std::rethrow_exception(raised_);
     if (outcome.report_failed) warnings_.push_back(*outcome.report_failed);
     const std::size_t disks = simulation_.disks().count();
     const nb::object frames = wishes_.frames ? nb::object(std::move(sampled_).arrays(disks)) : nb::none();
@@ -131,11 +132,17 @@ class PythonRun {
  private:
   void observe(Observation& observation) {
     const nb::gil_scoped_acquire locked;
-    for (const nb::handle object : wishes_.observables) observation.add(observable_of(nb::borrow<nb::object>(object)));
+    for (const nb::handle object : wishes_.observables)
+      observation.add(
+          observable_of(nb::borrow<nb::object>(object), [this](std::exception_ptr error) { keep(std::move(error)); }));
   }
 
-  /// Ctrl-C stops the run, which then completes its files, and so does `progress` that returns False. Whatever else a signal or
-  /// `progress` raises comes out of it at once.
+  /// Keeps the first exception of Python until the files of the run are complete.
+  void keep(std::exception_ptr error) {
+    if (!raised_) raised_ = std::move(error);
+  }
+
+  /// Ctrl-C stops the run, and so does `progress` that returns False. So does what else a signal or `progress` raises.
   bool may_go_on(const Progress& progress) {
     const nb::gil_scoped_acquire locked;
     try {
@@ -144,7 +151,7 @@ class PythonRun {
           wishes_.progress(progress.time, progress.totals.pair, progress.equilibrating).is(nb::handle(Py_False)))
         interrupted_ = true;
     } catch (nb::python_error& error) {
-      if (!error.matches(PyExc_KeyboardInterrupt)) throw;
+      if (!error.matches(PyExc_KeyboardInterrupt)) keep(std::current_exception());
       interrupted_ = true;
     }
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - began_;
@@ -157,6 +164,7 @@ class PythonRun {
   Runner runner_;
   SampledStates sampled_;
   bool interrupted_ = false;
+  std::exception_ptr raised_;
   std::vector<std::string> warnings_;
 };
 

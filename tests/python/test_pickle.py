@@ -86,11 +86,12 @@ positions = { file = "start.csv" }
     (tmp_path / "sub/scene.toml").write_text(text)
     monkeypatch.chdir(tmp_path)
     loaded, parsed = carom.Scene.load("sub/scene.toml"), carom.Scene.parse(text, "sub")
+    made = carom.Scene({**loaded.to_dict(), "disks": {"radius": 0.5, "mass": 1.0, "positions": {"file": "sub/start.csv"}}})
     simulation = carom.Simulation(loaded)
     simulation.run_until(0.5)
-    pickles = [pickle.dumps(one) for one in (loaded, parsed, simulation)]
+    pickles = [pickle.dumps(one) for one in (loaded, parsed, simulation, made)]
     monkeypatch.chdir("/")
-    assert [pickle.loads(one).count for one in pickles] == [2, 2, 2]
+    assert [pickle.loads(one).count for one in pickles] == [2, 2, 2, 2]
     assert pickle.loads(pickles[2]).state_hash == simulation.state_hash
     assert loaded.set({"run.time": 2.0}).count == 2
 

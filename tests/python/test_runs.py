@@ -304,6 +304,8 @@ def test_frames_that_a_run_gains_later_are_there(gas, tmp_path):
     carom.resume(tmp_path / "run", time=30.0)
     assert len(frames) == 61 and frames[-1].time == run.state().time == carom.open_run(tmp_path / "run").state().time == 30.0
     assert [state.time for state in frames] == frames.time.tolist() == np.arange(0.0, 30.5, 0.5).tolist()
+    carom.resume(tmp_path / "run", time=40.0)  # more than are read at once
+    assert [state.time for state in frames] == np.arange(0.0, 40.5, 0.5).tolist()
 
 
 class Odd(carom.Observable):
@@ -323,15 +325,30 @@ class Odd(carom.Observable):
         ({"": 1.0}, ValueError, "has the name ''"),
         ({"t": carom.Table({"a\0b": [1.0]})}, ValueError, "take a word without /"),
         ({"x": 10**400}, ValueError, "odd.x is beyond the range of a double"),
-        ({"x": carom.Number(1.0, error="small")}, TypeError, "odd.x is a str"),
+        ({"x": carom.Number(1.0, error="small")}, TypeError, "the error of odd.x is a str"),
+        ({"tables": 1.0}, ValueError, "has the name 'tables'"),
+        ({"t": carom.Table({"c,d": [1.0]})}, ValueError, "has the name 'c,d'"),
+        ({"t u": carom.Table({"c": [1.0]})}, ValueError, "a table of odd has the name 't u', and a file of its own"),
         ({"x": carom.Number(1.0, unit=3)}, TypeError, "the unit of odd.x is 3; give a string"),
     ],
-    ids=["slash", "empty", "column", "huge", "error", "unit"],
+    ids=["slash", "empty", "column", "huge", "error", "tables", "comma", "space", "unit"],
 )
-def test_results_that_files_cannot_hold_are_refused(gas, results, kind, sentence):
+def test_results_that_files_cannot_hold_are_refused_and_the_others_kept(gas, tmp_path, results, kind, sentence):
     with pytest.raises(kind) as refused:
-        carom.run(gas.set({"run.time": 0.5}), observables=[Odd(results)])
+        carom.run(gas.set({"run.time": 0.5}), observables=[Odd(results)], out=tmp_path / "run")
     assert sentence in str(refused.value)
+    assert carom.open_run(tmp_path / "run").verify() == []
+
+
+def test_tables_of_one_name_have_files_of_their_own(gas, tmp_path):
+    class Even(Odd):
+        name = "even"
+
+    one, other = carom.Table({"x": [1.0]}), carom.Table({"x": [2.0]})
+    carom.run(gas.set({"run.time": 0.5}), observables=[Odd({"t": one}), Even({"t": other})], out=tmp_path / "run")
+    found = carom.open_run(tmp_path / "run").observables
+    assert [list(found[name].tables) for name in ("odd", "even")] == [["t"], ["even_t"]]
+    assert found["even"].tables["even_t"]["x"].tolist() == [2.0]
 
 
 def test_whether_an_observable_follows_collisions_is_a_bool(gas):
@@ -341,18 +358,24 @@ def test_whether_an_observable_follows_collisions_is_a_bool(gas):
         carom.run(gas, observables=[odd])
 
 
-def test_what_a_signal_raises_ends_a_run_with_observables_of_ones_own(gas, tmp_path):
+@pytest.mark.parametrize("own", [[], [Odd({})]])
+def test_what_a_signal_raises_ends_a_run_whose_files_are_complete(gas, tmp_path, own):
     class OutOfTime(Exception):
         pass
 
+    rings = []
+
     def ring(*_):
-        raise OutOfTime
+        rings.append(signal.SIGALRM)
+        if len(rings) < 3:
+            raise OutOfTime
 
     before = signal.signal(signal.SIGALRM, ring)
     try:
-        signal.setitimer(signal.ITIMER_REAL, 0.5)
+        signal.setitimer(signal.ITIMER_REAL, 0.5, 0.001 if own else 0.0)  # and again, while files are completed
         with pytest.raises(OutOfTime):
-            carom.run(gas.set({"run.time": 1e6, "run.sample_every": 1e5}), observables=[Odd({})], out=tmp_path / "run")
+            carom.run(gas.set({"run.time": 1e6, "run.sample_every": 1e5}), observables=own, out=tmp_path / "run")
+        signal.setitimer(signal.ITIMER_REAL, 0)
     finally:
         signal.signal(signal.SIGALRM, before)
     assert threading.active_count() == 1

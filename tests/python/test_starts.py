@@ -105,8 +105,14 @@ def test_a_universe_whose_middle_is_0_has_such_a_box():
     universe = MDAnalysis.Universe.empty(2, trajectory=True)
     universe.load_new(np.array([[[-4.5, 0, 0], [4.5, 1, 0]]]), dimensions=np.array([10, 8, 8, 90, 90, 90]))
     assert carom.read_start(universe).box == ((-5.0, 5.0), (-4.0, 4.0))
-    universe.load_new(np.array([[[-0.01, 3, 0], [4.5, 7, 0]]]), dimensions=np.array([10, 8, 8, 90, 90, 90]))
-    assert carom.read_start(universe).box == ((0.0, 10.0), (0.0, 8.0))
+    for x, y, box in [
+        ((-4.5, 4.5), (3, 7), ((-5.0, 5.0), (0.0, 8.0))),  # each axis by itself
+        ((-0.01, 5.01), (1, 3), ((0.0, 10.0), (0.0, 8.0))),  # no box holds x
+        ((-4.5, 5.0000005), (-1, 1), ((-5.0, 5.0), (-4.0, 4.0))),  # as single precision rounds
+        ((2, 4), (1, 3), ((0.0, 10.0), (0.0, 8.0))),  # both boxes hold all
+    ]:
+        universe.load_new(np.array([[[x[0], y[0], 0], [x[1], y[1], 0]]]), dimensions=np.array([10, 8, 8, 84, 90, 90]))
+        assert carom.read_start(universe).box == box, (x, y)
 
 
 def test_a_universe_has_the_box_of_the_frame_that_is_read():
