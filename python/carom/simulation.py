@@ -153,7 +153,7 @@ class Simulation:
         """The scene, with what acts on the disks now. Where they have grown so far that its start has no room for them, it lists them
         as they are."""
         if self._now is None:
-            self._now = Scene._of(self._core.scene)
+            self._now = Scene._of(self._core.scene, self._made._directory)
         return self._now
 
     @property

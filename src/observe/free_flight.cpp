@@ -140,7 +140,7 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public RecordFollow
   static double scale(const ObservedRun& run) { return run.mean_free_time > 0.0 ? run.mean_free_time : run.step_of(1.0); }
   static double speed(const ObservedRun& run) {
     const double mass = run.disks.total_mass() / static_cast<double>(run.disks.count());
-    return run.temperature > 0.0 ? std::sqrt(run.temperature / mass) : 1.0;
+    return run.energy_scale() > 0.0 ? std::sqrt(run.energy_scale() / mass) : 1.0;
   }
 
   /// Processes at most `piece` collisions. Which disks are followed is unpredictable, so collisions that end flights are listed

@@ -31,7 +31,7 @@ class HFunction final : public SavedObservable<HFunction> {
       double mass = 0.0, count = 0.0;
       for (std::size_t i = 0; i < run.disks.count(); ++i)
         if (run.disks.species[i] == static_cast<std::int32_t>(s)) mass += run.disks.mass[i], count += 1.0;
-      const double kT = run.temperature > 0.0 ? run.temperature : 1.0;
+      const double kT = run.energy_scale() > 0.0 ? run.energy_scale() : 1.0;
       thermal_.push_back(count > 0.0 ? std::sqrt(kT * count / mass) : 1.0);
     }
   }

@@ -15,15 +15,34 @@ namespace carom {
 
 namespace {
 
+/// Returns the energy that what acts gives a disk that begins at rest, to an order of magnitude: the largest of kT of a wall, of
+/// what a fall through the box, a piston's load and a wall's, a flow's or a surface's speed bring. 0 where nothing does.
+double energy_of_what_acts(const ObservedRun& run) {
+  const Effects& effects = run.scene.effects;
+  if (run.disks.count() == 0) return 0.0;
+  const Eigen::Vector2d lengths = run.scene.box.lengths();
+  const double count = static_cast<double>(run.disks.count()), mass = run.disks.total_mass() / count;
+  double energy = mass * effects.acceleration().cwiseAbs().dot(lengths);
+  double speed = std::max(std::abs(effects.shear_rate()), effects.growth_rate()) * run.mean_diameter;
+  for (const WallProperties& wall : effects.walls) {
+    energy = std::max({energy, wall.temperature.value_or(0.0), wall.load.value_or(0.0) * run.scene.box.area() / count});
+    for (const std::optional<double>& one : {wall.velocity, wall.tangential_velocity, wall.vibration})
+      speed = std::max(speed, std::abs(one.value_or(0.0)));
+    if (const auto& motion = wall.oscillation)
+      speed = std::max(speed, 2.0 * std::numbers::pi * motion->frequency * motion->amplitude);
+  }
+  return std::max(energy, mass * speed * speed);
+}
+
 /// Disks of mean size and mass; the contact value is Henderson's (1975). A step need not be known better.
 double mean_free_time(const ObservedRun& run) {
   const double count = static_cast<double>(run.disks.count());
-  if (run.disks.count() < 2 || !(run.temperature > 0.0)) return 0.0;
+  if (run.disks.count() < 2 || !(run.energy_scale() > 0.0)) return 0.0;
   const double mass = run.disks.total_mass() / count;
   const double eta = std::min(run.scene.packing_fraction(), 0.85);
   const double g = (1.0 - 7.0 * eta / 16.0) / ((1.0 - eta) * (1.0 - eta));
   const double density = count / run.scene.box.area();
-  return 1.0 / (2.0 * std::sqrt(std::numbers::pi) * density * run.mean_diameter * g * std::sqrt(run.temperature / mass));
+  return 1.0 / (2.0 * std::sqrt(std::numbers::pi) * density * run.mean_diameter * g * std::sqrt(run.energy_scale() / mass));
 }
 
 /// Names of results are names in files: letters, digits and what is not ASCII, others as underscores.
@@ -51,6 +70,7 @@ ObservedRun observed_run(const Simulation& simulation) {
 ObservedRun observed_run(const Scene& scene, const Disks& disks, double temperature) {
   ObservedRun run{.scene = scene, .disks = disks, .acting = &scene.effects, .time = scene.run.time, .temperature = temperature};
   if (run.disks.count() > 0) run.mean_diameter = run.disks.mean_diameter();
+  run.energy_of_what_acts = energy_of_what_acts(run);
   run.mean_free_time = mean_free_time(run);
   return run;
 }

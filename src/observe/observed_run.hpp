@@ -24,7 +24,8 @@ struct ObservedRun {
   const Effects* acting = nullptr;     ///< effects that act when observables are made; `scene` has those of all of its changes
   std::size_t changes_made = 0;        ///< changes of the scene that were made before that
   std::optional<double> time = {};     ///< end of the run as planned when it began
-  double temperature = 0.0;            ///< kT at the start, or of the bath
+  double temperature = 0.0;            ///< kT at the start, or of the bath; 0 where disks begin at rest
+  double energy_of_what_acts = 0.0;    ///< mean energy of a disk that begins at rest, to an order of magnitude; 0 where it stays so
   double mean_diameter = 1.0;          ///< 1 without disks
   bool collisions_known = true;        ///< can be followed one by one: of a run that is over, its log may not have been kept
   bool has_collision_records = false;  ///< whether the simulation itself records collisions with what came before them
@@ -32,6 +33,9 @@ struct ObservedRun {
   double mean_free_time = 0.0;  ///< mean free time by Enskog's theory for disks of mean size and mass; 0 where nothing moves
   std::vector<std::string> suffixes = suffixes_of(scene.species);  ///< of the species
 
+  /// Returns the energy by which histograms and default steps are scaled: the temperature, or where disks begin at rest what
+  /// they will have; 0 where nothing moves.
+  [[nodiscard]] double energy_scale() const { return temperature > 0.0 ? temperature : energy_of_what_acts; }
   /// Returns the step of an observable: as the scene says, else the observable's own number of mean free times; 0 for observables
   /// without samples.
   [[nodiscard]] double step(const ObservableRequest& request) const;

@@ -36,20 +36,19 @@ class Contact {
   explicit Contact(double sigma, double reach)
       : sigma_(sigma), width_((reach - sigma) / bins), weights_(Eigen::VectorXd::Zero(bins)) {
     if (!(width_ > 0.0)) return;
-    // integral of 2 pi r (r - sigma)^k over a bin, in units of its ring: the weight of a bin is that of its expected count
+    // Integral of 2 pi r x^k over a bin, x being the part of all bins that r is beyond sigma: all in units of a bin's width, so that
+    // no unit of length makes columns of sizes that differ.
     Eigen::MatrixXd model(bins, degree + 1);
-    Eigen::VectorXd rings(bins);
     for (int b = 0; b < bins; ++b) {
-      const double from = b * width_, to = from + width_;
+      const double from = static_cast<double>(b) / bins, to = static_cast<double>(b + 1) / bins;
       for (int k = 0; k <= degree; ++k)
-        model(b, k) = 2.0 * std::numbers::pi *
-                      (sigma * (std::pow(to, k + 1) - std::pow(from, k + 1)) / (k + 1) +
-                       (std::pow(to, k + 2) - std::pow(from, k + 2)) / (k + 2));
-      rings[b] = model(b, 0);
+        model(b, k) = 2.0 * std::numbers::pi * bins *
+                      (sigma / width_ * (std::pow(to, k + 1) - std::pow(from, k + 1)) / (k + 1) +
+                       bins * (std::pow(to, k + 2) - std::pow(from, k + 2)) / (k + 2));
     }
     // Counts of about equal rings scatter about equally, so least squares need no weights.
     const Eigen::MatrixXd inverse = model.completeOrthogonalDecomposition().pseudoInverse();
-    weights_ = inverse.row(0).transpose();
+    weights_ = inverse.row(0).transpose() / (width_ * width_);
   }
 
   [[nodiscard]] bool known() const { return width_ > 0.0; }

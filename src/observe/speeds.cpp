@@ -103,7 +103,7 @@ class Speeds final : public SavedObservable<Speeds> {
 
  private:
   /// Returns the energy by which histograms are scaled: one disk in e^12.5 has more than 12.5 kT.
-  static double energy(const ObservedRun& run) { return run.temperature > 0.0 ? run.temperature : 1.0; }
+  static double energy(const ObservedRun& run) { return run.energy_scale() > 0.0 ? run.energy_scale() : 1.0; }
   static double lightest(const ObservedRun& run) {
     return run.disks.count() == 0 ? 1.0 : *std::min_element(run.disks.mass.begin(), run.disks.mass.end());
   }

@@ -101,7 +101,7 @@ double sound_time(const ObservedRun& run) {
   const double eta = std::min(run.scene.packing_fraction(), 0.85), free = 1.0 - eta;
   const double z = (1.0 + eta * eta / 8.0) / (free * free);
   const double slope = eta / 4.0 / (free * free) + 2.0 * z / free;
-  const double speed = std::sqrt(run.temperature / mass * (z + eta * slope + z * z));
+  const double speed = std::sqrt(run.energy_scale() / mass * (z + eta * slope + z * z));
   return speed > 0.0 ? 0.5 * run.scene.box.lengths().minCoeff() / speed : std::numeric_limits<double>::infinity();
 }
 

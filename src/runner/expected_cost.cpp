@@ -32,7 +32,7 @@ constexpr double quickening = 4.0;
 /// Seconds of a run that will never come to its end: 30 years.
 constexpr double forever_seconds = 1e9;
 
-constexpr double latest = 1e15;  // later than any run gets to
+constexpr double latest = 1e150;  // later than any run gets to, in any unit of time
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 /// A part of the schedule: it ends at a time or at a number of collisions, whichever comes first.

@@ -62,7 +62,8 @@ def test_every_engine_can_be_interrupted(engine: str) -> None:
 def test_the_placing_of_disks_can_be_interrupted(positions: str, make: Callable[[carom.Scene], object]) -> None:
     packing_fraction = {"random": 0.5465, "dense": 0.84}[positions]
     side = math.sqrt(100_000 * math.pi / 4 / packing_fraction)
-    disks = {"count": 100_000, "radius": 0.5, "positions": positions}
+    placed = positions if positions == "random" else {"packing_fraction": packing_fraction}
+    disks = {"count": 100_000, "radius": 0.5, "positions": placed}
     scene = carom.Scene({"box": {"size": [side, side]}, "disks": [disks], "run": {"collisions": 1}})
     interrupted(lambda: make(scene))
 
