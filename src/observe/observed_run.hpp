@@ -21,13 +21,13 @@ namespace carom {
 struct ObservedRun {
   const Scene& scene;
   const Disks& disks;
-  const Effects* acting = nullptr;     ///< effects that act when observables are made; `scene` has those of all of its changes
-  std::size_t changes_made = 0;        ///< changes of the scene that were made before that
-  std::optional<double> time = {};     ///< end of the run as planned when it began
-  double temperature = 0.0;            ///< kT at the start, or of the bath; 0 where disks begin at rest
-  double energy_of_what_acts = 0.0;    ///< mean energy of a disk that begins at rest, to an order of magnitude; 0 where it stays so
-  double mean_diameter = 1.0;          ///< 1 without disks
-  bool collisions_known = true;        ///< can be followed one by one: of a run that is over, its log may not have been kept
+  const Effects* acting = nullptr;   ///< effects that act when observables are made; `scene` has those of all of its changes
+  std::size_t changes_made = 0;      ///< changes of the scene that were made before that
+  std::optional<double> time = {};   ///< end of the run as planned when it began
+  double temperature = 0.0;          ///< kT at the start, or of the bath; 0 where disks begin at rest
+  double energy_of_what_acts = 0.0;  ///< mean energy of a disk that begins at rest, to an order of magnitude; 0 where it stays so
+  double mean_diameter = 1.0;        ///< 1 without disks
+  bool collisions_known = true;      ///< can be followed one by one: of a run that is over, its log may not have been kept
   bool has_collision_records = false;  ///< whether the simulation itself records collisions with what came before them
   bool own_rule = false;               ///< whether a collision rule of the program acts
   double mean_free_time = 0.0;  ///< mean free time by Enskog's theory for disks of mean size and mass; 0 where nothing moves

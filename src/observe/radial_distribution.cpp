@@ -36,8 +36,8 @@ class Contact {
   explicit Contact(double sigma, double reach)
       : sigma_(sigma), width_((reach - sigma) / bins), weights_(Eigen::VectorXd::Zero(bins)) {
     if (!(width_ > 0.0)) return;
-    // Integral of 2 pi r x^k over a bin, x being the part of all bins that r is beyond sigma: all in units of a bin's width, so that
-    // no unit of length makes columns of sizes that differ.
+    // Integral of 2 pi r x^k over a bin, x being the part of all bins that r is beyond sigma: all in units of a bin's width, so
+    // that no unit of length makes columns of sizes that differ.
     Eigen::MatrixXd model(bins, degree + 1);
     for (int b = 0; b < bins; ++b) {
       const double from = static_cast<double>(b) / bins, to = static_cast<double>(b + 1) / bins;

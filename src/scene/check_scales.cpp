@@ -152,7 +152,6 @@ double start_speed(const Species& species) {
   return 0.0;
 }
 
-/// Returns the largest speed, roughly: at the start, or by what acts.
 double fastest_of(const Scene& scene, const std::vector<Drive>& drives) {
   long double fastest = 0.0L;
   for (const Species& species : scene.species) fastest = std::max<long double>(fastest, start_speed(species));
@@ -292,6 +291,8 @@ void check_step(const Scene& scene, const std::string& path, double step, double
                             "{:.3g}, less than coordinates resolve",
                             path, step, way / fastest, step * fastest));
 }
+
+double fastest_speed(const Scene& scene) { return fastest_of(scene, drives_of(scene, sizes_of(scene))); }
 
 void check_scales(const Scene& scene) {
   if (scene.disk_count() == 0) return;

@@ -55,6 +55,8 @@ struct UnlikeContact {
 };
 /// Returns those of all pairs of species that have disks, where [non_additivity] acts; else none.
 std::vector<UnlikeContact> unlike_contacts(const Scene& scene);
+/// Returns the largest speed, roughly: at the start, or by what acts.
+double fastest_speed(const Scene& scene);
 /// Returns whether disks of some two species may come nearer than the sum of their radii.
 bool brings_unlike_nearer(const Scene& scene);
 /// Returns the largest of them; 0 where there are none.

@@ -28,6 +28,22 @@ const Observed& fluid_with_structure() {
   return observed;
 }
 
+/// Lengths and speeds times 2^a: not a bit of what has no unit is another.
+TEST(RadialDistribution, HasOneContactValueInAllUnitsOfLength) {
+  const auto contact_in = [](int a) {
+    Scene scene = parse_scene(small_fluid("radial_distribution = { every = 0.25 }"));
+    scene.box.lower *= std::ldexp(1.0, a);
+    scene.box.upper *= std::ldexp(1.0, a);
+    scene.species.front().radius *= std::ldexp(1.0, a);
+    scene.species.front().velocities = MaxwellVelocities{std::ldexp(1.0, 2 * a)};
+    const Observed observed = observe(scene, 0.25);
+    return std::pair(observed.value("radial_distribution", "contact"), observed.scalar("radial_distribution", "contact").error);
+  };
+  const auto ordinary = contact_in(0);
+  EXPECT_GT(ordinary.first, 1.0);
+  for (const int a : {-60, -20, 20, 60}) EXPECT_EQ(contact_in(a), ordinary) << a;
+}
+
 TEST(ClosePairs, AreThoseOfAllPairs) {
   std::mt19937_64 engine(5);
   const auto uniform = [&] { return static_cast<double>(engine() >> 11U) * 0x1p-53; };

@@ -64,7 +64,8 @@ def test_the_placing_of_disks_can_be_interrupted(positions: str, make: Callable[
     side = math.sqrt(100_000 * math.pi / 4 / packing_fraction)
     placed = positions if positions == "random" else {"packing_fraction": packing_fraction}
     disks = {"count": 100_000, "radius": 0.5, "positions": placed}
-    scene = carom.Scene({"box": {"size": [side, side]}, "disks": [disks], "run": {"collisions": 1}})
+    box = {"x": [0, side], "y": [0, side], "boundary": "periodic"}
+    scene = carom.Scene(box=box, disks={**disks, "mass": 1, "velocities": {"temperature": 1}}, collision={"rule": "specular"}, run={"collisions": 1})
     interrupted(lambda: make(scene))
 
 
