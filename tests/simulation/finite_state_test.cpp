@@ -5,8 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <string>
+#include <vector>
 
 namespace carom::test {
 namespace {
@@ -81,12 +83,22 @@ TEST(FiniteState, AProgramThatRunsASimulationItselfIsTold) {
 
 TEST(FiniteState, ASpeedThatIsNoneInSinglePrecisionIsToldAtOnce) {
   const Scene scene = [] {
-    Scene fast = scene_of_placed(box_of(16.0, 16.0, Boundary::walls), {{{5.0, 8.0}, {1e60, 0.0}}});
-    fast.run.time = 1.0;
-    return fast;
+    Scene slow = scene_of_placed(box_of(16.0, 16.0, Boundary::walls), {{{5.0, 8.0}, {1.0, 0.0}}});
+    slow.run.time = 1.0;
+    return slow;
   }();
-  Simulation simulation = make_simulation(scene, "textbook-float");
+  State start = make_simulation(scene).state();
+  start.velocities(0, 0) = 1e60;  // in a scene it would be refused
+  Simulation simulation = make_simulation(scene, start, "textbook-float");
   EXPECT_EQ(run_schedule(simulation).stopped, StopReason::invalid_state);
+}
+
+TEST(FiniteState, SinglePrecisionIsNotForSpeedsWhoseSquaresItCannotHold) {
+  for (const double speed : {1e-25, 1e-10, 1.0, 1e10, 1e25}) {
+    const Scene scene = scene_of_placed(box_of(16.0, 16.0, Boundary::walls), {{{5.0, 8.0}, {speed, 0.0}}});
+    const std::vector<std::string> covering = engines_covering(scene);
+    EXPECT_EQ(std::ranges::find(covering, "textbook-float") != covering.end(), speed > 1e-20 && speed < 1e20) << speed;
+  }
 }
 
 TEST(FiniteState, FixedStepsEndTooWhereANumberIsNone) {
