@@ -49,12 +49,17 @@ std::string why_not_single(const Scene& scene, const Disks& disks) {
 
 const std::vector<EngineEntry>& catalogue() {
   static const std::vector<EngineEntry> entries = {
-      {"fast", &why_not_fast, &make_fast, false, true, false},
-      {"general", &why_not_general, &make_general, true, true},
-      {"textbook", &never, &make_textbook<double>},
-      {"textbook-float", &why_not_single, &make_textbook<float>},
-      {"textbook-long-double", &never, &make_textbook<long double>},
-      {"textbook-quad", &never, &make_textbook<Quad>},
+      {.name = "fast",
+       .why_not = &why_not_fast,
+       .make = &make_fast,
+       .takes_rules = false,
+       .shares_out = true,
+       .keeps_spins = false},
+      {.name = "general", .why_not = &why_not_general, .make = &make_general, .shares_out = true},
+      {.name = "textbook", .why_not = &never, .make = &make_textbook<double>},
+      {.name = "textbook-float", .why_not = &why_not_single, .make = &make_textbook<float>},
+      {.name = "textbook-long-double", .why_not = &never, .make = &make_textbook<long double>},
+      {.name = "textbook-quad", .why_not = &never, .make = &make_textbook<Quad>},
   };
   return entries;
 }

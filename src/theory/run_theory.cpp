@@ -27,7 +27,7 @@ using theory::densest_finite, theory::densest_fluid, theory::is_wide, theory::ma
 constexpr int line_points = 200;
 
 /// Returns Z of a fluid of so many equal disks; nothing where no equation of state is good to 0.2 %.
-std::optional<Expected> fluid_Z(double eta, std::int64_t disks) {
+std::optional<Expected> expected_Z(double eta, std::int64_t disks) {
   const std::optional<theory::FluidZ> Z = theory::fluid_Z(eta, disks);
   if (!Z) return {};
   return Expected{Z->value, Z->of_so_many ? fmt::format("Kolafa & Rottner, N = {}", disks)
@@ -73,7 +73,7 @@ std::optional<Expected> contact_value(const std::string& scalar, const TheorySou
       if (a == b && counts[a] < 2.0) return {};  // there is no such pair
       if (all_equal(radius)) {                   // it follows from Z, whatever masses and names are
         const auto disks = static_cast<std::int64_t>(radius.size());
-        const std::optional<Expected> Z = fluid_Z(eta, disks);
+        const std::optional<Expected> Z = expected_Z(eta, disks);
         return Z ? std::optional(contact_value_of(*Z, eta, disks)) : std::nullopt;
       }
       std::vector<theory::Component> gas;
@@ -124,7 +124,7 @@ RunTheory::RunTheory(const RunReport& report, std::optional<TheorySource> source
 }
 
 void RunTheory::find_Z() {
-  Z_ = fluid_Z(eta_, report_.disks);
+  Z_ = expected_Z(eta_, report_.disks);
   if (Z_) return;
   if (eta_ <= densest_fluid) {
     why_not_Z_ = fmt::format(

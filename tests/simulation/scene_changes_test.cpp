@@ -448,7 +448,8 @@ TEST(SceneChanges, LeaveDisksWhereTheyAreFarOutsideTheBox) {
 TEST(SceneChanges, KeepDisksApartFarOutsideTheBox) {
   const std::string wells = "[[changes]]\ntime = 500\nset = [\"square_well={ width = 1.5, depth = 0.1 }\"]\n";
   const std::string nothing = "[[changes]]\ntime = 500\nscale_velocities = 1.0\n";
-  for (const std::string right : {"{ velocity = 1.0 }", "{ mass = 10.0, load = 0.001 }"})
+  for (const std::string right :
+       {"{ velocity = 1.0 }", "{ mass = 10.0, load = 0.001 }", "{ velocity = 1.0 }\nleft = { velocity = -1.0 }"})
     for (const std::string& change : {nothing, wells}) {
       SCOPED_TRACE(right + change);
       const Scene scene = parse_scene(
