@@ -68,7 +68,7 @@ struct ColumnHalves {
 
 /// A table of columns of equal length. The standard errors of a column are a column of their own, called NAME_error.
 struct Table {
-  std::string name;  ///< in the results of a run it gets that of its observable before it where an earlier table has it
+  std::string name;  ///< where two tables of a run have one, the later becomes OBSERVABLE_NAME
   Average average = Average::time;
   std::vector<Column> columns = {};
   std::vector<ColumnHalves> halves = {};  ///< by column; of columns without rows that could be compared there are none

@@ -115,7 +115,7 @@ class Observable:
     def finish(self, time: float, collisions: int, virial: float) -> Mapping[str, Any]:
         """Is called when the run has ended. Returns the results by name: Numbers, plain numbers, and Tables.
 
-        Where an earlier table of the run has the name of one, the later gets the name of its observable and _ before its own.
+        Where two tables of a run have one name, the later becomes OBSERVABLE_NAME.
         """
         return {}
 
@@ -136,7 +136,7 @@ class Observable:
         if not isinstance(results, Mapping):
             raise TypeError(f"{self.name}.finish() returned {shown(results)}; give a mapping of names to Numbers, plain numbers and Tables")
         for name, found in results.items():
-            what = f"{self.name}.{_result_name(name, self.name)}"
+            what = f"{self.name}.{_result_name(name, self.name, taken=('note', 'tables'))}"
             if isinstance(found, Table):
                 if not re.fullmatch(r"[A-Za-z0-9_]{1,100}", name):
                     raise ValueError(f"a table of {self.name} has the name {shown(name)}, and a file of its own; take at most 100 letters, digits and underscores")
@@ -162,10 +162,12 @@ class Observable:
         self.__dict__.update(pickle.loads(saved))
 
 
-def _result_name(name: Any, of: str) -> str:
+def _result_name(name: Any, of: str, taken: tuple[str, ...] = ()) -> str:
     """Returns the name of a number, a table or a column, which is one in files too. Raises ValueError for what cannot be."""
-    if words(name, f"a name of what {of}.finish() returned") in ("", ".", "..", "note", "tables") or re.search(r'[/,"\x00-\x1f]', name):
-        raise ValueError(f"a result of {of} has the name {shown(name)}; take a word without / and commas, and none of note and tables")
+    if words(name, f"a name of what {of}.finish() returned") in ("", ".", "..") or re.search(r'[/,"\x00-\x1f]', name):
+        raise ValueError(f"a result of {of} has the name {shown(name)}; take a word without / , \" and control characters")
+    if name in taken:
+        raise ValueError(f"a result of {of} has the name {shown(name)}, which the summary uses itself; take another")
     return str(name)
 
 

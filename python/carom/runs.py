@@ -366,41 +366,31 @@ def _call_on_thread(call: Callable[[Any], tuple[Any, ...]], on_progress: Any, ha
     alone, and in the middle of an observable it would lose the collisions at hand."""
     if not has_own or threading.current_thread() is not threading.main_thread():
         return call(on_progress)
-    stop = threading.Event()
+    from carom import _files
+
+    raised: list[BaseException] = []  # by handlers of signals; they come out when the run has completed its files
+    outcome: list[Any] = []
 
     def callback(*progress: Any) -> bool:
         if on_progress is not None:
             on_progress(*progress)
-        return not stop.is_set()
-
-    outcome: list[Any] = []
-    ended = threading.Event()
+        return not raised
 
     def work() -> None:
         try:
             outcome.append(call(callback))
         except BaseException as error:
             outcome.append(error)
-        ended.set()
 
-    threading.Thread(target=work, name="carom.run", daemon=True).start()
-    raised: BaseException | None = None
-    while not ended.is_set():
-        try:
-            ended.wait(0.05)
-        except KeyboardInterrupt:
-            if stop.is_set():
-                raise
-            stop.set()
-        except BaseException as error:  # of a handler of another signal: not before the run has completed its files
-            stop.set()
-            raised = raised or error
-    if isinstance(outcome[0], BaseException):
-        raise outcome[0]
-    if raised is not None:
-        raise raised
+    _files.call_on_thread(work, raised.append)
+    failure = outcome[0] if isinstance(outcome[0], BaseException) else None
+    for error in raised:
+        if not isinstance(error, KeyboardInterrupt):
+            raise error from failure
+    if failure is not None:
+        raise failure
     parts: tuple[Any, ...] = outcome[0]
-    return (*parts[:_INTERRUPTED], stop.is_set() or parts[_INTERRUPTED], *parts[_INTERRUPTED + 1 :])
+    return (*parts[:_INTERRUPTED], bool(raised) or parts[_INTERRUPTED], *parts[_INTERRUPTED + 1 :])
 
 
 #: The place of `interrupted` in what the library returns of a run.

@@ -81,7 +81,7 @@ class Scene:
         if mapping is not None and not isinstance(mapping, Mapping):
             raise TypeError(f"a scene is {shown(mapping)}; give a mapping, or the path of a scene file to Scene.load()")
         self._core = _parsed(scene_text({**(mapping or {}), **tables}), _MADE, [], ".")
-        self._directory = abspath(".")
+        self._directory = _here()
         self._toml: str | None = None
 
     @classmethod
@@ -105,7 +105,7 @@ class Scene:
     @classmethod
     def preset(cls, name: str) -> Scene:
         """Returns one of the scenes that come with carom, such as "box"; `carom.presets()` lists them."""
-        return cls._of(_core.Scene.parse(_core.preset(words(name, "the name")), f"{name}.toml", [], "."), abspath("."))
+        return cls._of(_core.Scene.parse(_core.preset(words(name, "the name")), f"{name}.toml", [], "."), _here())
 
     def set(self, changes: Mapping[str, Any]) -> Scene:
         """Returns the scene with other values for some keys.
@@ -238,6 +238,13 @@ class Scene:
 
     def __reduce__(self) -> tuple[Any, ...]:
         return scene_of_parts, self.parts()
+
+
+def _here() -> str:
+    try:
+        return abspath(".")
+    except FileNotFoundError:  # somebody has removed the directory
+        return "."
 
 
 def _parsed(text: str, source: str, overrides: list[str], directory: str) -> _core.Scene:

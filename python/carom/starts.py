@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from carom.frames import Floats
 
 
-#: How far a coordinate in single precision may be beyond where it is, as a part of it.
+#: How far beyond the edge of its box single precision may put a centre, as a part of the box.
 _SINGLE = 1e-6
 
 
@@ -140,4 +140,7 @@ def _of_universe(source: Any, frame: int) -> Start:
         centred = fits_middle & ~fits_zero
         centred |= fits_middle & fits_zero & centred[::-1]
         box = _limits(lengths[0], centred[0]), _limits(lengths[1], centred[1])
+        for axis, (low, high) in enumerate(box):  # back to the edge what is beyond it by the rounding of single precision
+            at, beyond = positions[:, axis], _SINGLE * (high - low)
+            positions[:, axis] = np.where((at >= low - beyond) & (at <= high + beyond), np.clip(at, low, high), at)
     return Start(positions, velocities, column("radii"), column("masses"), box)

@@ -202,10 +202,12 @@ class StoredFrames:
 
     def __iter__(self) -> Iterator[State]:
         frames = len(self)
-        at_once = max(1, min(64, 1_000_000 // max(1, self.scene.count)))  # to open the file takes as long as to read thousands of disks
-        for first in range(0, frames, at_once):
-            numbers = range(first, min(first + at_once, frames))
+        most = max(1, min(64, 1_000_000 // max(1, self.scene.count)))
+        read, at_once = 0, 1
+        while read < frames:  # ever more at once: to open the file takes as long as to read thousands of disks
+            numbers = range(read, min(read + at_once, frames))
             yield from self._run._read(lambda reader, numbers=numbers: [State._of(reader.sample(k)) for k in numbers])
+            read, at_once = numbers.stop, min(2 * at_once, most)
 
     def __repr__(self) -> str:
         return f"<carom.StoredFrames in {self._path}>"

@@ -37,7 +37,7 @@ std::filesystem::path directory_for(const RunOptions& options) {
 /// Makes the simulation, by exact events or fixed steps, as the options say. Shows the progress of placing its disks.
 Simulation simulation_for(const RunOptions& options, const Scene& scene, const std::string& engine) {
   ProgressLine line(progress_mode(options.progress, options.quiet), scene);
-  const auto placing = [&](double fraction) { line.update("placing disks", fraction); };
+  const auto placing = [&](double fraction) { line.update_share("placing disks", fraction); };
   if (options.method == "exact") {
     if (options.dt)
       throw UsageError("--dt is the step of a fixed-step method; exact events need none: leave it out, or give --method");

@@ -237,7 +237,7 @@ void LiveRun::begin_again(const Scene& with, const State& state) {
   scene.box = box_of(scene.box, state);
   list_disks(scene, state);
   Simulation another = make_simulation(scene, state);
-  require_apart_in_shear(scene, another.state());
+  require_apart_in_shear(scene, state, another.state().scale);
   before_ += simulation_.time();
   add_counts(counts_before_, simulation_.counts());
   simulation_ = std::move(another);

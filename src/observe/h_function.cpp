@@ -14,6 +14,8 @@
 #include "observe/saved_observable.hpp"
 #include "observe/thinned_rows.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -93,7 +95,10 @@ class HFunction final : public SavedObservable<HFunction> {
 
   [[nodiscard]] Measurement finish(double, const Totals&) override {
     Measurement found{.name = name()};
-    if (beyond_) found.note = "some velocities were beyond the histogram, 16 thermal velocities of the start to either side";
+    if (beyond_)
+      found.note = fmt::format("some velocities were beyond the histogram, 16 {} to either side",
+                               run_.temperature > 0.0 ? "thermal velocities of the start"
+                                                      : "times an estimate of how fast disks become that begin at rest");
     found.tables.push_back(
         {.name = name(),
          .columns = {{"time", "time", rows_.times()}, {"H", "", rows_.column(0)}, {"H_error", "", rows_.column(1)}}});

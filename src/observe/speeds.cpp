@@ -88,8 +88,9 @@ class Speeds final : public SavedObservable<Speeds> {
     Measurement found{.name = name()};
     // In equilibrium the fraction is one in e^12.5 = 270,000.
     if (const double beyond = std::max(speeds_.share_beyond(), energies_.share_beyond()); beyond > 1e-3)
-      found.note =
-          fmt::format("{:.2g} % are beyond the histograms, which are scaled with the temperature of the start", 100.0 * beyond);
+      found.note = fmt::format(
+          "{:.2g} % are beyond the histograms, which are scaled with {}", 100.0 * beyond,
+          run_.temperature > 0.0 ? "the temperature of the start" : "an estimate of how fast disks become that begin at rest");
     found.tables.push_back(speeds_.table("speeds", "length / time", "time / length", run_));
     note_lower_bounds(found, speeds_.has_lower_bounds() || energies_.has_lower_bounds());
     found.tables.push_back(energies_.table("energies", "energy", "1 / energy", run_));

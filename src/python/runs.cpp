@@ -20,10 +20,14 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <exception>
+#include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -93,6 +97,52 @@ struct RunWishes {
   nb::object progress;             ///< told time, collisions and whether it equilibrates; False from it stops the run; None
 };
 
+/// Tells `report` how far a run has come; returns whether it did not answer False. Requires the interpreter's lock.
+bool may_go_on(const nb::object& report, const Progress& progress) {
+  return report.is_none() || !report(progress.time, progress.totals.pair, progress.equilibrating).is(nb::handle(Py_False));
+}
+
+[[noreturn]] void throw_interrupt() {
+  PyErr_SetNone(PyExc_KeyboardInterrupt);
+  throw nb::python_error();
+}
+
+/// Calls `work`, which raises nothing, on a thread of its own, and waits for its end. What handlers of signals raise meanwhile is
+/// given to `raised`, which ends the work; a second Ctrl-C is raised at once and leaves the work behind. Handlers run here, and
+/// not within code of Python that waits with locks.
+void call_on_thread(nb::object work, const nb::object& raised) {
+  const auto ended = std::make_shared<std::atomic<bool>>(false);
+  std::thread thread([ended, work = std::move(work)]() mutable {
+    {
+      const nb::gil_scoped_acquire locked;
+      try {
+        work();
+      } catch (nb::python_error& error) {
+        error.discard_as_unraisable("carom.run");
+      }
+      work.reset();
+    }
+    *ended = true;
+  });
+  int interrupts = 0;
+  while (!*ended) {
+    {
+      const nb::gil_scoped_release released;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    if (PyErr_CheckSignals() == 0) continue;
+    nb::python_error error;
+    interrupts += error.matches(PyExc_KeyboardInterrupt) ? 1 : 0;
+    if (interrupts > 1) {
+      thread.detach();
+      throw error;
+    }
+    raised(error.value());
+  }
+  const nb::gil_scoped_release released;
+  thread.join();
+}
+
 class PythonRun {
  public:
   PythonRun(Simulation& simulation, const RunDirectory* directory, Provenance provenance, const RunWishes& wishes,
@@ -117,9 +167,14 @@ class PythonRun {
     if (wishes_.frames) hooks.sample = [this](const State& state, const Totals& totals) { sampled_.add(state, totals); };
     RunnerOutcome outcome = [&] {
       const nb::gil_scoped_release released;
-      return runner_.run(hooks);
+      try {
+        return runner_.run(hooks);
+      } catch (const std::exception& error) {
+        if (!raised_) throw;
+        raise_kept(error.what());
+      }
     }();
-    if (raised_) std::rethrow_exception(raised_);
+    if (raised_) raise_kept({});
     if (outcome.report_failed) warnings_.push_back(*outcome.report_failed);
     const std::size_t disks = simulation_.disks().count();
     const nb::object frames = wishes_.frames ? nb::object(std::move(sampled_).arrays(disks)) : nb::none();
@@ -142,14 +197,24 @@ class PythonRun {
     if (!raised_) raised_ = std::move(error);
   }
 
+  /// Raises that exception, with a note on what failed besides.
+  [[noreturn]] void raise_kept(const std::string& besides) const {
+    const nb::gil_scoped_acquire locked;
+    try {
+      std::rethrow_exception(raised_);
+    } catch (const nb::python_error& error) {
+      const nb::handle value = error.value();
+      if (!besides.empty() && nb::hasattr(value, "add_note")) value.attr("add_note")("besides: " + besides);
+      throw;
+    }
+  }
+
   /// Ctrl-C stops the run, and so does `progress` that returns False. So does what else a signal or `progress` raises.
   bool may_go_on(const Progress& progress) {
     const nb::gil_scoped_acquire locked;
     try {
       if (PyErr_CheckSignals() != 0) throw nb::python_error();
-      if (!wishes_.progress.is_none() &&
-          wishes_.progress(progress.time, progress.totals.pair, progress.equilibrating).is(nb::handle(Py_False)))
-        interrupted_ = true;
+      if (!python::may_go_on(wishes_.progress, progress)) interrupted_ = true;
     } catch (nb::python_error& error) {
       if (!error.matches(PyExc_KeyboardInterrupt)) keep(std::current_exception());
       interrupted_ = true;
@@ -181,7 +246,11 @@ AnyTuple run(const Scene& scene, const std::string& engine, const std::optional<
              std::optional<double> stiffness, const std::optional<std::string>& path, bool overwrite, const RunWishes& wishes) {
   Simulation simulation = [&] {
     const nb::gil_scoped_release released;
-    const auto placing = [](double) { look_at_python(); };
+    const auto placing = [&](double) {
+      look_at_python([&] {
+        if (!may_go_on(wishes.progress, {.equilibrating = true})) throw_interrupt();
+      });
+    };
     Simulation made =
         method ? make_simulation(scene, FixedStep{*method, dt, stiffness}, placing) : make_simulation(scene, engine, placing);
     take_threads(made, wishes.threads);
@@ -226,6 +295,7 @@ AnyTuple resume(const std::string& path, std::optional<double> time, std::option
 }  // namespace
 
 void add_runs(nb::module_& module) {
+  module.def("call_on_thread", &call_on_thread, nb::arg("work"), nb::arg("raised"));
   module.def(
       "run",
       [](const Scene& scene, const std::string& engine, const std::optional<std::string>& method, double dt,

@@ -33,6 +33,7 @@ constexpr double quickening = 4.0;
 constexpr double forever_seconds = 1e9;
 
 constexpr double latest = 1e150;  // later than any run gets to, in any unit of time
+constexpr double most_collisions = 1e18;
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 /// A part of the schedule: it ends at a time or at a number of collisions, whichever comes first.
@@ -82,9 +83,9 @@ Scene trial_of(const Scene& scene) {
   const Part end = has_end(sum_of(parts)) ? sum_of(parts) : parts.back();
   trial.run.time.reset();
   trial.run.collisions.reset();
-  if (end.collisions < 1e18) trial.run.collisions = static_cast<std::uint64_t>(end.collisions);
   if (end.time < unlimited) trial.run.time = end.time;
-  if (!trial.run.time && !trial.run.collisions) trial.run.time = latest;
+  if (end.collisions < most_collisions || !trial.run.time)
+    trial.run.collisions = static_cast<std::uint64_t>(std::min(end.collisions, most_collisions));
   return trial;
 }
 

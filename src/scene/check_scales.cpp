@@ -292,7 +292,12 @@ void check_step(const Scene& scene, const std::string& path, double step, double
                             path, step, way / fastest, step * fastest));
 }
 
-double fastest_speed(const Scene& scene) { return fastest_of(scene, drives_of(scene, sizes_of(scene))); }
+double fastest_speed(const Scene& scene) {
+  const std::vector<Drive> drives = drives_of(scene, sizes_of(scene));
+  long double fastest = fastest_of(scene, drives);
+  for (const Drive& drive : drives) fastest = std::max(fastest, drive.fastest);
+  return static_cast<double>(fastest);
+}
 
 void check_scales(const Scene& scene) {
   if (scene.disk_count() == 0) return;

@@ -55,7 +55,7 @@ struct UnlikeContact {
 };
 /// Returns those of all pairs of species that have disks, where [non_additivity] acts; else none.
 std::vector<UnlikeContact> unlike_contacts(const Scene& scene);
-/// Returns the largest speed, roughly: at the start, or by what acts.
+/// Returns the largest speed, roughly: at the start, of walls and surfaces, or by what else acts.
 double fastest_speed(const Scene& scene);
 /// Returns whether disks of some two species may come nearer than the sum of their radii.
 bool brings_unlike_nearer(const Scene& scene);

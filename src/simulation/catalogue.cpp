@@ -31,7 +31,6 @@ std::string never(const Scene& /*scene*/, const Disks& /*disks*/) { return ""; }
 /// 1.2e-38 to 3.4e38, with room for sums.
 std::string why_not_single(const Scene& scene, const Disks& disks) {
   constexpr double shortest = 1e-17, longest = 1e18, lightest = 1e-36, heaviest = 1e36;
-  const double fastest = fastest_speed(scene), smallest = radii_of(scene).smallest;
   const double side = std::max(scene.box.lower.cwiseAbs().maxCoeff(), scene.box.upper.cwiseAbs().maxCoeff());
   if (side > longest)
     return fmt::format("coordinates reach to {:.6g}, and their squares are too large for single precision", side);
@@ -39,9 +38,18 @@ std::string why_not_single(const Scene& scene, const Disks& disks) {
     if (radius < shortest) return fmt::format("a radius is {:.6g}, and its square is too small for single precision", radius);
   for (const double mass : disks.mass)
     if (mass < lightest || mass > heaviest) return fmt::format("a mass is {:.6g}, beyond the range of single precision", mass);
-  if (fastest * side > longest || (fastest > 0.0 && fastest * smallest < shortest))
-    return fmt::format("disks move at {:.3g}, and the square of speed times length is beyond the range of single precision",
-                       fastest);
+  const double fastest = fastest_speed(scene);
+  if (disks.count() == 0 || fastest == 0.0) return "";
+  if (fastest * side > longest)
+    return fmt::format(
+        "speeds are {:.3g}, and the square of their product with {:.6g}, the farthest coordinate, is too large for "
+        "single precision",
+        fastest, side);
+  if (const double smallest = radii_of(scene).smallest; fastest * smallest < shortest)
+    return fmt::format(
+        "speeds are {:.3g}, and the square of their product with {:.6g}, the smallest radius, is too small for "
+        "single precision",
+        fastest, smallest);
   return "";
 }
 

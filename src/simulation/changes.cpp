@@ -52,9 +52,7 @@ Scene begun_now(Scene scene, const State& state, const std::array<OscillationClo
 /// Throws as check() does where what acts now does not fit the disks as they are. `begun` is a scene of begun_now().
 void check_going_on(const Scene& begun, const State& state) {
   check_begun(begun, state);
-  State as_large = state;
-  as_large.scale = 1.0;
-  require_apart_in_shear(begun, as_large);
+  require_apart_in_shear(begun, state, 1.0);
 }
 
 /// Walls that do not move any more stand where they are; disks that do not grow any more keep their size.

@@ -127,7 +127,7 @@ class Growing {
   }
 
   /// At random, without overlap, in places where they will still be clear of walls and obstacles when they are grown.
-  State small_disks() const {
+  State small_disks() {
     State state;
     state.scale = disks_.count() == 1 ? 1.0 : std::min(1.0, std::sqrt(placed_fraction / final_fraction_));
     std::optional<Eigen::Matrix2Xd> positions;
@@ -148,7 +148,7 @@ class Growing {
     return state;
   }
 
-  [[nodiscard]] std::optional<Eigen::Matrix2Xd> placed(double scale) const {
+  [[nodiscard]] std::optional<Eigen::Matrix2Xd> placed(double scale) {
     std::vector<double> radius = disks_.radius;
     for (double& r : radius) r *= scale;
     std::vector<std::size_t> order(radius.size());
@@ -165,9 +165,10 @@ class Growing {
     return positions;
   }
 
-  [[nodiscard]] std::optional<Eigen::Vector2d> room_for(std::size_t i, const DisksAtRest& in_place) const {
+  [[nodiscard]] std::optional<Eigen::Vector2d> room_for(std::size_t i, const DisksAtRest& in_place) {
     RandomStream random(scene_.run.seed, Stream::positions, i);
     for (int tries = 0; tries < random_tries; ++tries) {
+      watch_.pass();
       Eigen::Vector2d position;
       for (int a = 0; a < 2; ++a) {
         const double margin = scene_.box.periodic(a) ? 0.0 : disks_.radius[i];

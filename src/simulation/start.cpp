@@ -137,12 +137,12 @@ void check_begun(const Scene& scene, const State& state) {
   check(slid);
 }
 
-void require_apart_in_shear(const Scene& scene, const State& state) {
+void require_apart_in_shear(const Scene& scene, const State& state, double scale) {
   if (scene.run.accept_overlap || state.shear_displacement == 0.0 || !detail::MeanFlow(scene.box, scene.effects).present())
     return;
   const Disks disks = disks_of(scene);
   std::vector<double> radii = disks.radius;
-  for (double& radius : radii) radius *= state.scale;
+  for (double& radius : radii) radius *= scale;
   const ContactScales<double> scales = contact_scales<double>(scene.effects, disks);
   const DeepestOverlap found = deepest_overlap_in_shear(scene.box, radii, state, scales);
   if (!(found.relative > detail::touching)) return;

@@ -26,8 +26,8 @@ Start start_from(const Scene& scene, const State& state);
 void check_begun(const Scene& scene, const State& state);
 
 /// Throws SceneError where images that have slid make disks overlap, as check() does where none have, unless the scene accepts
-/// overlaps.
-void require_apart_in_shear(const Scene& scene, const State& state);
+/// overlaps. The radii are `scale` times those of the scene.
+void require_apart_in_shear(const Scene& scene, const State& state, double scale);
 
 /// Does as start_from() for a scene that has been checked, and for these disks.
 Start start_of(const Scene& scene, Disks disks, const State& state);

@@ -24,6 +24,10 @@ constexpr double least_done = 0.02;
 
 constexpr auto clear_line = "\r\x1b[K";
 
+std::string share(const std::string& doing, double fraction) {
+  return fmt::format("{}  {:.0f} %", doing, 100.0 * std::clamp(fraction, 0.0, 1.0));
+}
+
 }  // namespace
 
 ProgressMode progress_mode(const std::string& when, bool quiet) {
@@ -52,7 +56,7 @@ void ProgressLine::update(const std::string& doing, double fraction) {
   const Clock::time_point now = Clock::now();
   if (!begun_) begun_ = {now, fraction};
   if (!is_due(now)) return;
-  std::string text = fmt::format("{}  {:.0f} %", doing, 100.0 * std::clamp(fraction, 0.0, 1.0));
+  std::string text = share(doing, fraction);
   // The rest takes as long as its share says, by the pace since the first call.
   const double done = fraction - begun_->second;
   if (done > least_done && fraction < 1.0) {
@@ -60,6 +64,11 @@ void ProgressLine::update(const std::string& doing, double fraction) {
     text += fmt::format("  about {} left", duration(seconds * (1.0 - fraction) / done));
   }
   show(text, now);
+}
+
+void ProgressLine::update_share(const std::string& doing, double fraction) {
+  const Clock::time_point now = Clock::now();
+  if (shown_ && is_due(now)) show(share(doing, fraction), now);
 }
 
 bool ProgressLine::is_due(Clock::time_point now) const {

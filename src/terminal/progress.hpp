@@ -53,6 +53,9 @@ class ProgressLine {
   /// the time that the rest will take.
   void update(const std::string& doing, double fraction);
 
+  /// Does so for work whose pace changes too much to say what time the rest will take.
+  void update_share(const std::string& doing, double fraction);
+
  private:
   using Clock = std::chrono::steady_clock;
 

@@ -321,12 +321,12 @@ class Odd(carom.Observable):
 @pytest.mark.parametrize(
     ("results", "kind", "sentence"),
     [
-        ({"x/y": 1.0}, ValueError, "a result of odd has the name 'x/y'; take a word without /"),
+        ({"x/y": 1.0}, ValueError, "a result of odd has the name 'x/y'; take a word without / , \" and control characters"),
         ({"": 1.0}, ValueError, "has the name ''"),
         ({"t": carom.Table({"a\0b": [1.0]})}, ValueError, "take a word without /"),
         ({"x": 10**400}, ValueError, "odd.x is beyond the range of a double"),
         ({"x": carom.Number(1.0, error="small")}, TypeError, "the error of odd.x is a str"),
-        ({"tables": 1.0}, ValueError, "has the name 'tables'"),
+        ({"tables": 1.0}, ValueError, "a result of odd has the name 'tables', which the summary uses itself"),
         ({"t": carom.Table({"c,d": [1.0]})}, ValueError, "has the name 'c,d'"),
         ({"t u": carom.Table({"c": [1.0]})}, ValueError, "a table of odd has the name 't u', and a file of its own"),
         ({"x": carom.Number(1.0, unit=3)}, TypeError, "the unit of odd.x is 3; give a string"),
@@ -375,8 +375,8 @@ def test_what_a_signal_raises_ends_a_run_whose_files_are_complete(gas, tmp_path,
         signal.setitimer(signal.ITIMER_REAL, 0.5, 0.001 if own else 0.0)  # and again, while files are completed
         with pytest.raises(OutOfTime):
             carom.run(gas.set({"run.time": 1e6, "run.sample_every": 1e5}), observables=own, out=tmp_path / "run")
-        signal.setitimer(signal.ITIMER_REAL, 0)
     finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, before)
     assert threading.active_count() == 1
     assert carom.open_run(tmp_path / "run").summary["stopped"] == "interrupted"

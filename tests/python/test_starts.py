@@ -112,7 +112,11 @@ def test_a_universe_whose_middle_is_0_has_such_a_box():
         ((2, 4), (1, 3), ((0.0, 10.0), (0.0, 8.0))),  # both boxes hold all
     ]:
         universe.load_new(np.array([[[x[0], y[0], 0], [x[1], y[1], 0]]]), dimensions=np.array([10, 8, 8, 84, 90, 90]))
-        assert carom.read_start(universe).box == box, (x, y)
+        start = carom.read_start(universe)
+        assert start.box == box, (x, y)
+        if x[0] != -0.01:
+            of_box = {"x": box[0], "y": box[1], "boundary": "periodic"}
+            assert carom.Simulation(scene(of_box).with_disks(start.positions, [[1, 0], [0, 1]])).state.count == 2
 
 
 def test_a_universe_has_the_box_of_the_frame_that_is_read():

@@ -83,12 +83,15 @@ TEST(DenseStart, IsTheSameToTheLastBitForTheSameSeed) {
 }
 
 TEST(DenseStart, IsTheSameForAProgramThatWatches) {
-  const Scene scene = dense(50, 0.75, Boundary::walls, Boundary::periodic, 1.4);
-  const PlacingHook watching = [](double fraction) {
+  const Scene scene = dense(1000, 0.75, Boundary::walls, Boundary::periodic, 1.4);
+  int calls = 0;
+  const PlacingHook watching = [&](double fraction) {
+    ++calls;
     EXPECT_GE(fraction, 0.0);
     EXPECT_LE(fraction, 1.0);
   };
   EXPECT_TRUE(same_bits(draw_start(scene).state.positions, draw_start(scene, watching).state.positions));
+  EXPECT_GT(calls, 0);
 }
 
 TEST(DenseStart, EndsWithWhatThePlacingHookThrows) {
