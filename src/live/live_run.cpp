@@ -237,7 +237,8 @@ void LiveRun::begin_again(const Scene& with, const State& state) {
   scene.box = box_of(scene.box, state);
   list_disks(scene, state);
   Simulation another = make_simulation(scene, state);
-  require_apart_in_shear(scene, state, another.state().scale);
+  const State begun = another.state();
+  require_apart_in_shear(scene, begun, begun.scale);
   before_ += simulation_.time();
   add_counts(counts_before_, simulation_.counts());
   simulation_ = std::move(another);

@@ -246,9 +246,11 @@ AnyTuple run(const Scene& scene, const std::string& engine, const std::optional<
              std::optional<double> stiffness, const std::optional<std::string>& path, bool overwrite, const RunWishes& wishes) {
   Simulation simulation = [&] {
     const nb::gil_scoped_release released;
+    Progress beginning;
+    beginning.equilibrating = true;
     const auto placing = [&](double) {
       look_at_python([&] {
-        if (!may_go_on(wishes.progress, {.equilibrating = true})) throw_interrupt();
+        if (!may_go_on(wishes.progress, beginning)) throw_interrupt();
       });
     };
     Simulation made =

@@ -62,9 +62,27 @@ std::string rate(double per_second) {
   return grouped(static_cast<std::uint64_t>(std::llround(per_second)));
 }
 
+namespace {
+
+/// Returns the power of ten of a number as it is printed with two digits: of 0.0996 it is that of 0.10.
+int power_of_ten(double number) {
+  const std::string text = fmt::format("{:.1e}", number);
+  return std::stoi(text.substr(text.find('e') + 1));
+}
+
+}  // namespace
+
 std::string with_error(double value, double error) {
-  if (!(error > 0.0) || !std::isfinite(error)) return fmt::format("{:.6g}", value);
-  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 15);
+  if (!(error > 0.0) || !std::isfinite(error) || !std::isfinite(value)) return fmt::format("{:.6g}", value);
+  const int last = power_of_ten(error) - 1;
+  if (const double larger = std::max(std::abs(value), error); larger < 1e-4 || larger >= 1e7) {
+    const int power = power_of_ten(larger), digits = std::clamp(power - last, 0, 15);
+    const auto in_powers = [&](double number) {
+      return fmt::format("{:.{}f}e{:+03}", static_cast<double>(number / std::pow(10.0L, power)), digits, power);
+    };
+    return in_powers(value) + " ± " + in_powers(error);
+  }
+  const int decimals = std::clamp(-last, 0, 15);
   return fmt::format("{:.{}f} ± {:.{}f}", value, decimals, error, decimals);
 }
 

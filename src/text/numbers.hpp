@@ -27,7 +27,8 @@ std::string size(double bytes);
 /// Returns a large number of things in a second as "1.23 million"
 std::string rate(double per_second);
 
-/// Returns a value with its standard error, both to the error's second digit: "1.0970 ± 0.0041"
+/// Returns a value with its standard error, both to the error's second digit: "1.0970 ± 0.0041", or "4.199e-21 ± 0.050e-21" where
+/// both are far from 1
 std::string with_error(double value, double error);
 
 /// Returns text such as "1 disk", "2 disks"

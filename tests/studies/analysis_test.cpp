@@ -214,6 +214,16 @@ TEST_F(Analysis, WithoutCollisionsGivesWhatNeedsNone) {
   EXPECT_THAT(refusal<std::invalid_argument>({"viscosity"}), StartsWith("viscosity follows collisions, and the run kept none"));
 }
 
+TEST_F(Analysis, WithoutSamplesCountsTheCollisionsOfTheLog) {
+  const Scene scene = parse_scene(fluid_of_one_kind +
+                                  "[collision]\nrule = \"specular\"\n[run]\ntime = 5.0\n[output]\nevents = true\n"
+                                  "[observe]\nfree_flight = true\nviscosity = true\n");
+  const std::vector<Measurement> measured = record(scene, run_).observables;
+  const std::vector<Measurement> analysed = analyse(run_, {"free_flight", "viscosity"}).observables;
+  ASSERT_EQ(analysed.size(), measured.size());
+  for (std::size_t k = 0; k < measured.size(); ++k) EXPECT_EQ(analysed[k].note, measured[k].note);
+}
+
 TEST_F(Analysis, WithoutSamplesRefusesWhatLooksAtStates) {
   for (const bool sampled : {false, true}) {
     record(parse_scene(fluid_of_one_kind + "[collision]\nrule = \"specular\"\n[run]\ntime = 5.0\n" +

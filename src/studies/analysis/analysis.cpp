@@ -93,6 +93,23 @@ class Log {
   std::uint64_t pairs_ = 0;  ///< events of two disks so far
 };
 
+/// Returns the totals at the end, as far as notes on errors ask for them: those of the last sample, with the collisions of pairs
+/// that the event log has after it.
+Totals totals_at_end(const RunReader& run) {
+  Totals totals = run.samples() > 0 ? run.totals(run.samples() - 1) : Totals{};
+  if (!run.has_event_log()) return totals;
+  constexpr std::uint64_t most = 1 << 16;
+  std::uint64_t pairs = 0;
+  double before = 0.0;
+  for (std::uint64_t first = 0; first < run.events(); first += most) {
+    const std::vector<Event> piece = run.event_log(first, std::min(most, run.events() - first), before);
+    pairs += static_cast<std::uint64_t>(std::ranges::count_if(piece, [](const Event& event) { return event.partner >= 0; }));
+    before = piece.back().time;
+  }
+  totals.pair = std::max(totals.pair, pairs - std::min(pairs, totals.well));
+  return totals;
+}
+
 /// Returns how many of the scene's changes come before a sample. One of its own time, to rounding, comes after it.
 std::size_t changes_before(const Scene& scene, const Instant& sample) {
   return static_cast<std::size_t>(std::ranges::count_if(scene.changes, [&](const Change& change) {
@@ -149,8 +166,7 @@ Analysis analyse(const std::filesystem::path& run_directory, const std::vector<s
   for (ObservableRequest& request : scene.observe) choose_step(request, observed, run.samples());
   ObservableGroup group(observed);
   feed(run, scene, group, progress);
-  const Totals totals = run.samples() > 0 ? run.totals(run.samples() - 1) : Totals{};
-  analysis.observables = group.results(run.end(), totals);
+  analysis.observables = group.results(run.end(), totals_at_end(run));
   return analysis;
 }
 

@@ -12,12 +12,6 @@ namespace carom::cli {
 
 namespace {
 
-/// Returns with_error(), and powers of ten where a number in units far from 1 would be all zeros.
-std::string in_any_unit(double value, std::optional<double> error) {
-  if (error && (std::abs(value) >= 1e6 || std::abs(value) < 1e-4)) return fmt::format("{:.3e} ± {:.1e}", value, *error);
-  return with_error(value, error.value_or(0.0));
-}
-
 std::string exponent(const Horizon& horizon, const Scene& scene) {
   if (scene.disk_count() < 2)
     return "Lyapunov exponent: not measured, since it is over collisions of pairs, and collisions of one disk with walls or "
@@ -26,8 +20,8 @@ std::string exponent(const Horizon& horizon, const Scene& scene) {
     return "Lyapunov exponent: unknown; too few collisions of pairs were followed, or collisions lose energy\n";
   const Lyapunov& lambda = *horizon.lyapunov;
   return fmt::format("Lyapunov exponent: {} per time, {} per collision of a disk, over {} collisions\n",
-                     in_any_unit(lambda.per_time, lambda.per_time_error),
-                     in_any_unit(lambda.per_collision, lambda.per_collision_error), grouped(lambda.collisions));
+                     with_error(lambda.per_time, lambda.per_time_error.value_or(0.0)),
+                     with_error(lambda.per_collision, lambda.per_collision_error.value_or(0.0)), grouped(lambda.collisions));
 }
 
 void put(TerminalTable& table, const HorizonRow& one) {
