@@ -146,11 +146,11 @@ class Observable:
                     columns.append((c, unit, [_float(v, f"{what}.{c}") for v in found[c]]))
                 tables.append((name, columns))
             elif isinstance(found, Number):
-                error, time = found.error, found.integrated_correlation_time
-                error = None if error is None else _float(error, f"the error of {what}")
-                time = None if time is None else _float(time, f"the correlation time of {what}")
+                error = None if found.error is None else _float(found.error, f"the error of {what}")
+                correlation = found.integrated_correlation_time
+                correlation = None if correlation is None else _float(correlation, f"the correlation time of {what}")
                 unit, note = words(found.unit, f"the unit of {what}"), words(found.note, f"the note of {what}")
-                scalars.append((name, _float(found.value, what), error, unit, time, note))
+                scalars.append((name, _float(found.value, what), error, unit, correlation, note))
             else:
                 scalars.append((name, _float(found, what), None, "", None, ""))
         return scalars, tables

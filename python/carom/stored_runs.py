@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import partial
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -162,6 +163,10 @@ class Run:
         return f"<carom.Run in {self.directory}: {self.summary['disks']} disks until time {self.summary['time']:g}>"
 
 
+def _states(numbers: range, reader: _files.RunReader) -> list[State]:
+    return [State._of(reader.sample(k)) for k in numbers]
+
+
 class StoredFrames:
     """The samples of a run in its file. Arrays behave as h5py's: `frames.positions[::100]` reads every hundredth frame.
 
@@ -206,7 +211,7 @@ class StoredFrames:
         read, at_once = 0, 1
         while read < frames:  # ever more at once: to open the file takes as long as to read thousands of disks
             numbers = range(read, min(read + at_once, frames))
-            yield from self._run._read(lambda reader, numbers=numbers: [State._of(reader.sample(k)) for k in numbers])
+            yield from self._run._read(partial(_states, numbers))
             read, at_once = numbers.stop, min(2 * at_once, most)
 
     def __repr__(self) -> str:
