@@ -83,7 +83,7 @@ TEST(DenseStart, IsTheSameToTheLastBitForTheSameSeed) {
 }
 
 TEST(DenseStart, IsTheSameForAProgramThatWatches) {
-  const Scene scene = dense(3000, 0.78, Boundary::walls, Boundary::periodic, 1.4);
+  const Scene scene = dense(12'000, 0.78, Boundary::walls, Boundary::periodic, 1.4);
   int calls = 0;
   const PlacingHook watching = [&](double fraction) {
     ++calls;
