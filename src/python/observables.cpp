@@ -2,6 +2,10 @@
 
 #include "python/buffers.hpp"
 
+#include <carom/io/output_error.hpp>
+
+#include <fmt/format.h>
+
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
@@ -34,7 +38,7 @@ static_assert(sizeof(PairCollision) == 144 && offsetof(PairCollision, disk) == 8
 
 class PythonObservable final : public Observable {
  public:
-  PythonObservable(nb::object object, FinishFailed failed)
+  PythonObservable(nb::object object, ObservableFailed failed)
       : object_(std::move(object)),
         failed_(std::move(failed)),
         name_(nb::cast<std::string>(object_.attr("name"))),
@@ -58,23 +62,20 @@ class PythonObservable final : public Observable {
     object_.attr("_start")(State(state));
   }
   void sample(const State& state, const Totals& totals) override {
-    const nb::gil_scoped_acquire locked;
-    hand_over();
-    object_.attr("_sample")(State(state), totals.pair, totals.virial);
+    guarded([&] {
+      hand_over();
+      object_.attr("_sample")(State(state), totals.pair, totals.virial);
+    });
   }
   void collisions(std::span<const PairCollision> collisions) override {
     waiting_->insert(waiting_->end(), collisions.begin(), collisions.end());
-    if (waiting_->size() < batch) return;
-    const nb::gil_scoped_acquire locked;
-    hand_over();
+    if (waiting_->size() >= batch) guarded([&] { hand_over(); });
   }
   Measurement finish(double time, const Totals& totals) override;
 
   void save(std::ostream& out) const override {
     const nb::gil_scoped_acquire locked;
-    const_cast<PythonObservable*>(this)->hand_over();
-    const auto bytes = nb::cast<nb::bytes>(object_.attr("_save")());
-    out.write(bytes.c_str(), static_cast<std::streamsize>(bytes.size()));
+    const_cast<PythonObservable*>(this)->save_to(out);
   }
   void load(std::istream& in) override {
     const std::string bytes{std::istreambuf_iterator<char>(in), {}};
@@ -91,8 +92,24 @@ class PythonObservable final : public Observable {
     [[nodiscard]] const PairCollision* data() const { return collisions->data(); }
   };
 
+  /// Makes a call. What it throws is told; nothing is called from then on.
+  template <class Call>
+  void guarded(const Call& call) {
+    if (broken_) return;
+    const nb::gil_scoped_acquire locked;
+    try {
+      call();
+    } catch (const std::exception&) {
+      if (!failed_) throw;
+      broken_ = true;
+      failed_(std::current_exception());
+    }
+  }
+
   /// Does as finish(). Requires the lock.
   Measurement measured(double time, const Totals& totals);
+  /// Does as save(). Requires the lock.
+  void save_to(std::ostream& out);
 
   /// Hands on the collisions that wait. Their memory is used again where Python does not keep it. Requires the lock.
   void hand_over() {
@@ -104,7 +121,8 @@ class PythonObservable final : public Observable {
   }
 
   nb::object object_;
-  FinishFailed failed_;
+  ObservableFailed failed_;
+  bool broken_ = false;  ///< it has thrown, perhaps in the middle of something
   std::string name_;
   double step_;
   bool needs_positions_, follows_collisions_;
@@ -112,13 +130,22 @@ class PythonObservable final : public Observable {
 };
 
 Measurement PythonObservable::finish(double time, const Totals& totals) {
-  const nb::gil_scoped_acquire locked;
+  Measurement found{.name = name_};
+  guarded([&] { found = measured(time, totals); });
+  return found;
+}
+
+void PythonObservable::save_to(std::ostream& out) {
+  const auto refuse = [this](const std::string& reason) {
+    throw OutputError(fmt::format("the observable {} cannot be saved: {}", name_, reason));
+  };
+  guarded([this] { hand_over(); });
+  if (broken_) refuse("it has failed");
   try {
-    return measured(time, totals);
-  } catch (const std::exception&) {
-    if (!failed_) throw;
-    failed_(std::current_exception());
-    return {.name = name_};
+    const auto bytes = nb::cast<nb::bytes>(object_.attr("_save")());
+    out.write(bytes.c_str(), static_cast<std::streamsize>(bytes.size()));
+  } catch (const nb::python_error& error) {
+    refuse(fmt::format("{}: {}", nb::cast<std::string>(error.type().attr("__name__")), nb::str(error.value()).c_str()));
   }
 }
 
@@ -146,7 +173,7 @@ Measurement PythonObservable::measured(double time, const Totals& totals) {
 
 }  // namespace
 
-std::unique_ptr<Observable> observable_of(const nb::object& object, FinishFailed failed) {
+std::unique_ptr<Observable> observable_of(const nb::object& object, ObservableFailed failed) {
   return std::make_unique<PythonObservable>(object, std::move(failed));
 }
 

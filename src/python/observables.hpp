@@ -11,13 +11,14 @@
 
 namespace carom::python {
 
-/// A function that is given what finish() of an observable has thrown. The observable then has no results.
-using FinishFailed = std::function<void(std::exception_ptr)>;
+/// A function that is given what sample(), collisions() or finish() of an observable has thrown. The observable is not called
+/// again then, has no results, and is no longer saved.
+using ObservableFailed = std::function<void(std::exception_ptr)>;
 
 /// Returns an observable that calls the methods of a carom.Observable: name, step, needs_positions and follows_collisions once,
 /// the others as the library calls its own. Collisions come in batches. Requires the interpreter's lock. Without `failed`, what
-/// finish() throws reaches its caller.
-[[nodiscard]] std::unique_ptr<Observable> observable_of(const nanobind::object& object, FinishFailed failed = {});
+/// they throw reaches the caller.
+[[nodiscard]] std::unique_ptr<Observable> observable_of(const nanobind::object& object, ObservableFailed failed = {});
 
 /// Returns what was measured as plain tuples, of which carom._measured makes numbers and tables: (name, note, scalars, tables), a
 /// scalar being (name, value, error, unit, time, note) and a table (name, [(column, unit, array)]).

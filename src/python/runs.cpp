@@ -174,7 +174,7 @@ class PythonRun {
         raise_kept(error.what());
       }
     }();
-    if (raised_) raise_kept({});
+    if (raised_) raise_kept(warnings_.empty() ? "" : warnings_.back());
     if (outcome.report_failed) warnings_.push_back(*outcome.report_failed);
     const std::size_t disks = simulation_.disks().count();
     const nb::object frames = wishes_.frames ? nb::object(std::move(sampled_).arrays(disks)) : nb::none();
@@ -219,6 +219,7 @@ class PythonRun {
       if (!error.matches(PyExc_KeyboardInterrupt)) keep(std::current_exception());
       interrupted_ = true;
     }
+    interrupted_ = interrupted_ || raised_;
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - began_;
     return !interrupted_ && (!wishes_.walltime || passed.count() < *wishes_.walltime);
   }

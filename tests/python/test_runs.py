@@ -168,6 +168,68 @@ def test_what_an_observable_raises_comes_out_of_the_run(gas, tmp_path):
         carom.run(gas, observables=[Wrong()])
 
 
+@pytest.mark.parametrize("method", ["sample", "collisions"])
+def test_files_are_complete_until_an_observable_failed(gas, tmp_path, method):
+    class Broken(carom.Observable):
+        name, step, follows_collisions = "broken", 0.25, True
+
+        def collisions(self, batch):
+            self.last = batch["time"][-1]
+            if method == "collisions" and self.last > 3.0:
+                raise RuntimeError("it broke")
+
+        def sample(self, state, collisions, virial):
+            if method == "sample" and state.time > 3.0:
+                raise RuntimeError("it broke")
+
+        def finish(self, time, collisions, virial):
+            raise AssertionError("an observable that has failed is not asked for results")
+
+    long = gas.set({"run.time": 1e6, "run.sample_every": 0.25})
+    with pytest.raises(RuntimeError, match="it broke") as caught:
+        carom.run(long, observables=[Broken(), "pressure"], out=tmp_path / "run")
+    assert caught.value.__notes__ == ["besides: the observable broken cannot be saved: it has failed; the run cannot go on later"]
+    run = carom.open_run(tmp_path / "run")
+    assert 3.0 < run.frames.time[-1] < 1e6
+    assert run.summary["stopped"] == "interrupted" and run.summary["observables"]["broken"] == {}
+    assert run.summary["observables"]["pressure"]["Z"]["value"] > 1.0
+
+
+def test_a_run_goes_on_from_where_it_was_saved_before_an_observable_failed(gas, tmp_path):
+    class Sum(carom.Observable):
+        name, step, needs_positions = "sum", 0.25, False
+        fails, total = False, 0.0
+
+        def sample(self, state, collisions, virial):
+            self.total += collisions
+            if Sum.fails and state.time > 50.0:
+                raise RuntimeError("it broke")
+
+        def finish(self, time, collisions, virial):
+            return {"total": self.total}
+
+    scene = gas.set({"run.time": 300.0})
+    expected = carom.run(scene, observables=[Sum()]).observables["sum"]["total"]
+    Sum.fails = True
+    with pytest.raises(RuntimeError, match="it broke") as caught:
+        carom.run(scene, observables=[Sum()], out=tmp_path / "run", checkpoint_every="5000 collisions")
+    assert "the run can go on from where it was saved before, and not from here" in caught.value.__notes__[0]
+    Sum.fails = False
+    assert carom.resume(tmp_path / "run", observables=[Sum()]).observables["sum"]["total"] == expected
+
+
+def test_an_observable_that_cannot_be_pickled_loses_no_files(gas, tmp_path):
+    class Locked(carom.Observable):
+        name = "locked"
+
+        def start(self, state):
+            self.lock = threading.Lock()
+
+    with pytest.warns(UserWarning, match="the observable locked cannot be saved: TypeError: cannot pickle"):
+        result = carom.run(gas, observables=[Locked()], out=tmp_path / "run", checkpoint_every="1 collisions")
+    assert carom.open_run(tmp_path / "run").summary["state_hash"] == result.state_hash
+
+
 @pytest.mark.parametrize(
     ("attributes", "kind", "sentence"),
     [
