@@ -193,7 +193,6 @@ TEST(EngineSuddenSpeed, ADiskThatOutrunsItsEpochMissesNoCollision) {
   expect_sound(system, CollisionRule::specular, 400);
 }
 
-/// May fail, in one of ten thousand systems, for the reasons of the two tests above.
 RC_GTEST_PROP(PropertyEngineSuddenSpeed, ThePlanIsSoundAfterEveryEventWhateverTheMasses, ()) {
   const auto boundary = rc::gen::element(Boundary::walls, Boundary::periodic, Boundary::periodic);
   const Box box = {{-3.0, 1.0},

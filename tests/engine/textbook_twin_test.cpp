@@ -12,8 +12,9 @@
 namespace carom::test {
 namespace {
 
+/// Compares so many events, or as many as the twin sees far enough for, and adds how many those were to `compared`.
 template <class Rule>
-void expect_same_events(const System& system, int events) {
+void compare_events(const System& system, int events, int& compared) {
   const auto engine = make_engine("textbook", system, rule_only<Rule>);
   AllPairsTwin<Rule> twin(system.box, system.disks, system.state);
   engine->record_events(true);
@@ -35,7 +36,15 @@ void expect_same_events(const System& system, int events) {
     ASSERT_EQ(event.partner, expected.partner) << "event " << k;
     ASSERT_EQ(event.velocity, expected.velocity) << "event " << k;
     ASSERT_EQ(event.partner_velocity, expected.partner_velocity) << "event " << k;
+    ++compared;
   }
+}
+
+template <class Rule>
+void expect_same_events(const System& system, int events) {
+  int compared = 0;
+  compare_events<Rule>(system, events, compared);
+  EXPECT_EQ(compared, events);
 }
 
 Box thin_channel(double width) { return {{0.0, 0.0}, {30.0, width}, {Boundary::periodic, Boundary::walls}}; }
@@ -118,8 +127,9 @@ RC_GTEST_PROP(PropertyTextbookTwin, AnySmallSystemHasTheSameEventsAsAllPairs, ()
       if (disk.r[a] >= box.upper[a]) disk.r[a] = box.lower[a];
     if (finds_room(box, placed, disk)) placed.push_back(disk);
   }
-  expect_same_events<Specular>(system_of(box, placed), 200);
-  expect_same_events<Reversal>(system_of(box, placed), 200);
+  int compared = 0;  // a disk alone, or disks that fly side by side, may have none
+  compare_events<Specular>(system_of(box, placed), 200, compared);
+  compare_events<Reversal>(system_of(box, placed), 200, compared);
   RC_ASSERT(!::testing::Test::HasFatalFailure());
 }
 

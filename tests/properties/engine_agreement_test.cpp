@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,23 @@ RC_GTEST_PROP(PropertyAgreement, EnginesStaySoundAndAgreeOnScenesWithAnyEffects,
   } catch (const SceneError&) {
     RC_DISCARD("the scene check refuses it");
   }
+}
+
+TEST(PropertyAgreement, ComparesEventsInMostScenes) {
+  std::mt19937_64 random(1);
+  int scenes = 0, compared = 0;
+  while (scenes < 30) {
+    std::vector<std::uint8_t> bytes(160);
+    for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random());
+    try {
+      const Scene scene = parse_scene(decoded_scene(bytes));
+      const WatchedRun one = run_watched(scene, "textbook", 400);
+      compared += determined(scene, one, run_watched(scene, "textbook-long-double", 400), 400) > 0 ? 1 : 0;
+      ++scenes;
+    } catch (const SceneError&) {  // the scene check refuses it
+    }
+  }
+  EXPECT_GT(compared, scenes / 2);
 }
 
 TEST(PropertyAgreement, EnginesStaySoundAndAgreeOnWhatFuzzingHasFound) {

@@ -53,8 +53,8 @@ class AllPairsTwin {
     begin_epoch(0.0);
   }
 
-  /// The next collision, made to happen. At time infinity where disks would travel more than 8 box lengths before it:
-  /// too many images to search.
+  /// The next collision, made to happen. At time infinity where disks would travel more than 8 box lengths before it, or 1,000
+  /// where a single axis is periodic: too many images to search.
   Event step() {
     for (;;) {
       const Event event = next_event();
@@ -92,9 +92,11 @@ class AllPairsTwin {
       }
       double travel = 0.0;
       for (int i = 0; i < n(); ++i) travel = std::max(travel, 2.0 * v_[at(i)].norm() * (std::min(first, length_) - t_[at(i)]));
-      const double box = std::min(domain_.length[0], domain_.length[1]);
+      double box = infinity<double>;
+      for (int axis = 0; axis < 2; ++axis)
+        if (domain_.periodic[axis]) box = std::min(box, domain_.length[axis]);
       if (!(travel + 2.0 * box > static_cast<double>(reach) * box)) break;
-      if (reach >= 8) return {infinity<double>, 0.0, -1, -1, {}, {}};
+      if (reach >= (domain_.periodic[0] && domain_.periodic[1] ? 8 : 1024)) return {infinity<double>, 0.0, -1, -1, {}, {}};
     }
     if (length_ <= first) {
       begin_epoch(length_);

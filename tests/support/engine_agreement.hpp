@@ -83,6 +83,9 @@ inline std::string first_difference(const WatchedRun& one, const WatchedRun& oth
       return fmt::format("event {}: {} has {} and {} at {}, {} has {} and {} at {}", k, one.engine, a.disk, a.partner, a.time,
                          other.engine, b.disk, b.partner, b.time);
   }
+  for (const WatchedRun* run : {&one, &other})
+    if (run->idle && run->events.size() < count)
+      return fmt::format("{} expects nothing more after {} of {} events", run->engine, run->events.size(), count);
   return "";
 }
 

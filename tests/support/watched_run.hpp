@@ -26,6 +26,7 @@ struct WatchedRun {
   std::string fault;    ///< empty where the engine stayed sound
   double length = 0.0;  ///< of the box
   double pull = 0.0;    ///< acceleration of what falls
+  bool idle = false;    ///< the engine expects no event any more
 };
 
 /// Whether momentum along an axis passes only between disks.
@@ -124,6 +125,7 @@ inline WatchedRun run_watched(const Scene& scene, const std::string& engine, std
     last_time = time;
     if (!in_range(state)) break;
   }
+  run.idle = running->idle();
   run.events = running->take_events();
   run.numerics = running->totals().numerics;
   if (!run.fault.empty()) return run;
