@@ -156,7 +156,7 @@ TEST(Engine, ADiskThatFillsItsChannelSlidesAlongIt) {
 /// operations, each of at most u = 2^-53 of that energy, of random sign and of about half that in the mean; so the total, a
 /// hundred disks' worth, changes by less than 5 u / 2 * 2 / 100 of itself each time, and by 1000 times that after 1e6 steps of a
 /// random walk: 5.6e-15, of which five standard deviations are 3e-14. A bias of 1e-19 per collision would show.
-constexpr double energy_drift = 1e-13;
+constexpr double energy_drift = 3e-14;
 
 template <class Check>
 void run_a_million_collisions(const System& system, CollisionRule rule, Check&& check) {

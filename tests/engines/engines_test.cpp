@@ -17,8 +17,9 @@ namespace carom::test {
 namespace {
 
 /// Errors grow by e for every Lyapunov time: 3.2 times per collision of each disk at reduced density 0.1, and more often the
-/// thinner the gas. After as many events as there are disks, two collisions of each, 1e-16 has become less than 1e-12, to be
-/// compared with gaps between events of some 1 / events; where less than a twentieth is covered, so it has after half as many.
+/// thinner the gas. After as many events as there are disks, two collisions of each, 1e-16 has become less than 1e-12 for most
+/// disks and a hundred times that for one which has collided six times; where less than a twentieth is covered, so it has after
+/// half as many. That is to be compared with gaps between events of some 1 / events.
 /// Eight hits of a single disk on round obstacles, each of which may double or triple an angle, do no more.
 std::size_t comparable_events(const Scene& scene) {
   const auto disks = static_cast<std::size_t>(scene.disk_count());
@@ -44,7 +45,7 @@ TEST_P(EnginesScene, GivesTheSameEventsOnEveryEngineAndAtHigherPrecision) {
     for (std::size_t k = 0; k < events.size(); ++k) {
       ASSERT_EQ(other[k].disk, events[k].disk) << engine << ", event " << k;
       ASSERT_EQ(other[k].partner, events[k].partner) << engine << ", event " << k;
-      ASSERT_NEAR(other[k].time, events[k].time, 1e-9 * std::max(1.0, events[k].time)) << engine << ", event " << k;
+      ASSERT_NEAR(other[k].time, events[k].time, 1e-10 * std::max(1.0, events[k].time)) << engine << ", event " << k;
     }
   }
 }

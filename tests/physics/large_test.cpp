@@ -2,6 +2,7 @@
 
 #include "neighbours/disks_at_rest.hpp"
 #include "observe/mechanics.hpp"
+#include "support/energy_drift.hpp"
 #include "support/engines.hpp"
 
 #include <gtest/gtest.h>
@@ -15,22 +16,14 @@ namespace {
 /// are; by u times the ways of both lines since the epoch, four spacings; and by the rounding of the time, as much: 1e-14 in all.
 constexpr double overlap = 1e-14;
 
-/// Collisions of a pair round its energy by some u: a random walk in units of 5 u / N, with 5 standard deviations; and 1e-17 for
-/// the sum over N that measures it.
-double energy_drift(std::uint64_t collisions, std::int64_t disks) {
-  return 5.0 * 5.0 * 0x1p-53 * std::sqrt(static_cast<double>(collisions)) / static_cast<double>(disks) +
-         0x1p-53 * std::sqrt(static_cast<double>(disks));
-}
-
 void expect_laws(const System& system, std::uint64_t collisions) {
   const auto engine = make_engine("fast", system);
-  const auto disks = static_cast<std::int64_t>(system.disks.count());
   const double energy = kinetic_energy(system.disks, system.state);
   for (std::uint64_t k = 1; k <= 10; ++k) {
     engine->run_until(forever, k * collisions / 10, no_limit);
     const State state = engine->state();
     EXPECT_LE(deepest_overlap(system.box, system.disks.radius, state.positions, state.remainders).relative, overlap);
-    EXPECT_NEAR(kinetic_energy(system.disks, state) / energy, 1.0, energy_drift(collisions, disks));
+    EXPECT_NEAR(kinetic_energy(system.disks, state) / energy, 1.0, energy_drift(collisions, system.disks.count()));
   }
   EXPECT_EQ(engine->totals().pair, collisions);
   const auto faults = engine->check_invariants();
