@@ -174,9 +174,11 @@ TEST_F(CompareCommand, PlayChoosesAMethodAndAStepOfTheStudyItself) {
 
 TEST_F(CompareCommand, PlayGoesWithAStudyThatGoesOn) {
   const fs::path points = file("gas-compare/points.jsonl");
-  const Outcome stopped = compare({"--seeds", "3", "-q"}, [&](pid_t child) {
-    EXPECT_TRUE(wait_until([&] { return lines_of(text_of(points)).size() > 4; }));
-    kill(child, SIGINT);
+  const Outcome stopped = ended_early([&] {
+    return compare({"--seeds", "3", "-q", "--force"}, [&](pid_t child) {
+      EXPECT_TRUE(wait_until([&] { return lines_of(text_of(points)).size() > 4; }));
+      kill(child, SIGINT);
+    });
   });
   EXPECT_EQ(stopped.exit_code, 130);
   const Outcome resumed = compare({"--seeds", "3", "--resume", "-q", "--play"});
@@ -203,9 +205,11 @@ TEST_F(CompareCommand, WhatCannotBePlayedIsRefusedBeforeAnythingIsWritten) {
 TEST_F(CompareCommand, InterruptedItKeepsItsPointsAndGoesOnFromThere) {
   const std::vector<std::string> options = {"--seeds", "3"};
   const fs::path points = file("gas-compare/points.jsonl");
-  const Outcome stopped = compare(options, [&](pid_t child) {
-    EXPECT_TRUE(wait_until([&] { return lines_of(text_of(points)).size() > 4; }));
-    kill(child, SIGINT);
+  const Outcome stopped = ended_early([&] {
+    return compare({"--seeds", "3", "--force"}, [&](pid_t child) {
+      EXPECT_TRUE(wait_until([&] { return lines_of(text_of(points)).size() > 4; }));
+      kill(child, SIGINT);
+    });
   });
   EXPECT_EQ(stopped.exit_code, 130);
   EXPECT_THAT(stopped.out, IsEmpty());

@@ -103,6 +103,9 @@ TEST_P(FullDisk, EndsAnH5mdWriterWithOneSentenceAndKeepsItsFlushedSamples) {
   ASSERT_TRUE(WIFEXITED(status)) << "killed by signal " << WTERMSIG(status);
   EXPECT_EQ(WEXITSTATUS(status), ended_with_output_error);
   const std::string kept = text_of(safe);
+  if (GetParam() > 1'000'000) {
+    ASSERT_GT(std::stoi(kept), 0);
+  }
   if (!kept.empty() && kept != "0") {
     EXPECT_THAT(text_of(message), AllOf(HasSubstr(path.string() + ": cannot write: File too large"), HasSubstr(kept + " samples"),
                                         HasSubstr("readable")));

@@ -7,6 +7,7 @@ by tests/app/gallery_test.cpp.
 """
 
 import re
+import resource
 import shlex
 import subprocess
 
@@ -193,13 +194,17 @@ def named_in_sentences(page):
             for part in commands_of(span)]
 
 
+def limit_processor_time():
+    resource.setrlimit(resource.RLIMIT_CPU, (1, 2))
+
+
 def said_to(words, place):
     if words not in SAID:
         place.mkdir()
         try:
-            ran = subprocess.run([PROGRAM, *words], cwd=place, capture_output=True, text=True, timeout=1)
-            SAID[words] = ran.stderr
-        except subprocess.TimeoutExpired:  # it has taken the command, and is at work
+            ran = subprocess.run([PROGRAM, *words], cwd=place, capture_output=True, text=True, timeout=60, preexec_fn=limit_processor_time)
+            SAID[words] = ran.stderr  # one that is still at work after a second has taken the command
+        except subprocess.TimeoutExpired:  # it waits for something
             SAID[words] = ""
     return SAID[words]
 

@@ -43,6 +43,7 @@ def test_a_sweep_has_the_programs_table(swept, gas, program, tmp_path):
         rows = list(csv.DictReader(file))
     assert swept.table["disks.0.radius"].tolist() == [float(row["disks.0.radius"]) for row in rows]
     numbers = [name.removesuffix("_mean") for name in rows[0] if name.endswith("_mean")]
+    assert len(numbers) > 1
     for name in numbers:
         column = "Z" if name == "pressure.Z" else name
         assert swept.table[column].tolist() == [float(row[f"{name}_mean"]) for row in rows], name

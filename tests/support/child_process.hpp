@@ -26,6 +26,9 @@ Outcome run_carom(const std::filesystem::path& directory, const std::vector<std:
 Outcome run_program(const std::filesystem::path& directory, std::vector<std::string> words,
                     const std::function<void(pid_t)>& meanwhile = {});
 
+/// Returns whether a process has a handler of its own for a signal: the kernel starts it without.
+bool handles(pid_t process, int signal);
+
 /// True as soon as `condition` is; false when it is not after half a minute.
 bool wait_until(const std::function<bool()>& condition);
 
