@@ -77,7 +77,8 @@ void RunReader::read_summary(const fs::path& directory) {
     end_ = json.at("time").get<double>();
     if (json.at("pressure").at("Z").is_number()) Z_ = json.at("pressure").at("Z").get<double>();
     facts_.emplace_back("Stopped by", json.at("stopped").get<std::string>());
-    facts_.emplace_back("Pair collisions", std::to_string(json.at("events").at("pair").get<std::uint64_t>()));
+    pair_collisions_ = json.at("events").at("pair").get<std::uint64_t>();
+    facts_.emplace_back("Pair collisions", std::to_string(pair_collisions_));
   } catch (const nlohmann::json::exception&) {
     throw detail::no_summary(directory);
   }

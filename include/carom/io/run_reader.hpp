@@ -37,6 +37,8 @@ class RunReader {
 
   [[nodiscard]] double end() const { return end_; }                 ///< the time that the run reached
   [[nodiscard]] std::optional<double> Z() const { return Z_; }      ///< Z of the whole run, if it has one
+  /// The collisions of pairs in the whole run; 0 for a trajectory without its run directory.
+  [[nodiscard]] std::uint64_t pair_collisions() const { return pair_collisions_; }
   [[nodiscard]] std::uint64_t samples() const { return samples_; }  ///< 0 where it kept events alone
   [[nodiscard]] std::uint64_t events() const { return events_; }    ///< 0 without a log
   [[nodiscard]] bool has_event_log() const { return has_event_log_; }
@@ -84,7 +86,7 @@ class RunReader {
   std::vector<std::pair<std::string, std::string>> facts_;
   double end_ = 0.0;
   std::optional<double> Z_;
-  std::uint64_t samples_ = 0, events_ = 0;
+  std::uint64_t pair_collisions_ = 0, samples_ = 0, events_ = 0;
   bool has_event_log_ = false;
 };
 

@@ -63,21 +63,18 @@ class Log {
  public:
   explicit Log(const RunReader& run) : run_(run), left_(run.events()) {}
 
-  /// Hands on the events up to number `pairs` of those of two disks, and others up to `time`. Without a group it counts them.
-  void follow_to(std::uint64_t pairs, double time, ObservableGroup* group) {
+  /// Hands on the events up to number `pairs` of those of two disks, and others up to `time`.
+  void follow_to(std::uint64_t pairs, double time, ObservableGroup& group) {
     for (;;) {
       std::size_t end = next_;
       while (end < piece_.size() && (piece_[end].partner < 0 ? piece_[end].time <= time : pairs_ < pairs))
         if (piece_[end++].partner >= 0) ++pairs_;
-      if (group != nullptr) group->follow(std::span(piece_).subspan(next_, end - next_));
+      group.follow(std::span(piece_).subspan(next_, end - next_));
       next_ = end;
       if (end < piece_.size() || left_ == 0) return;
       read();
     }
   }
-
-  /// Returns how many events of two disks there were so far.
-  [[nodiscard]] std::uint64_t pairs() const { return pairs_; }
 
  private:
   void read() {
@@ -104,9 +101,7 @@ std::size_t changes_before(const Scene& scene, const Instant& sample) {
   }));
 }
 
-/// Returns the totals at the end, as far as notes on errors ask for them: those of the last sample, with the collisions of pairs
-/// that the event log has after it.
-Totals feed(const RunReader& run, const Scene& scene, ObservableGroup& group, const std::function<void(double)>& progress) {
+void feed(const RunReader& run, const Scene& scene, ObservableGroup& group, const std::function<void(double)>& progress) {
   const bool follows = group.follows_collisions();
   const std::optional<SamplingTimes> times = SamplingTimes::of(scene.run);
   std::vector<std::pair<std::uint64_t, std::vector<Observable*>>> by_stride;
@@ -121,16 +116,13 @@ Totals feed(const RunReader& run, const Scene& scene, ObservableGroup& group, co
     if (progress) progress(static_cast<double>(k) / static_cast<double>(run.samples()));
     const Totals totals = run.totals(k);
     const State state = run.sample(k);
-    if (follows) log.follow_to(totals.pair + totals.well, state.time, &group);
+    if (follows) log.follow_to(totals.pair + totals.well, state.time, group);
     group.changed(changes_before(scene, times->at(k)));
     for (const auto& of : by_stride)
       if (wants(of))
         for (Observable* observable : of.second) observable->sample(state, totals);
   }
-  log.follow_to(run.events(), std::numeric_limits<double>::infinity(), follows ? &group : nullptr);
-  Totals at_end = run.samples() > 0 ? run.totals(run.samples() - 1) : Totals{};
-  at_end.pair = std::max(at_end.pair, log.pairs() - std::min(log.pairs(), at_end.well));
-  return at_end;
+  if (follows) log.follow_to(run.events(), std::numeric_limits<double>::infinity(), group);
 }
 
 }  // namespace
@@ -156,7 +148,9 @@ Analysis analyse(const std::filesystem::path& run_directory, const std::vector<s
   observed.collisions_known = run.has_event_log();
   for (ObservableRequest& request : scene.observe) choose_step(request, observed, run.samples());
   ObservableGroup group(observed);
-  const Totals at_end = feed(run, scene, group, progress);
+  feed(run, scene, group, progress);
+  Totals at_end = run.samples() > 0 ? run.totals(run.samples() - 1) : Totals{};
+  at_end.pair = run.pair_collisions();  // as far as notes on errors ask for them
   analysis.observables = group.results(run.end(), at_end);
   return analysis;
 }
