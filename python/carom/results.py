@@ -26,12 +26,13 @@ _SHOWN = 16
 def with_error(value: float, error: float) -> str:
     """Returns a value with its standard error, both to the error's second digit: "2.0602 ± 0.0010", or "4.199e-21 ± 0.050e-21" where
     both are far from 1."""
+    value, error = float(value), float(error)
     if not (math.isfinite(value) and math.isfinite(error) and error > 0):
         return f"{value:.6g}"
     last = _power_of_ten(error) - 1
     larger = max(abs(value), error)
     if not 1e-4 <= larger < 1e7:
-        power = _power_of_ten(larger)
+        power = _power_of_ten(larger, min(max(_power_of_ten(larger, 17) - last, 0), 17))
         digits = min(max(power - last, 0), 15)
         return " ± ".join(f"{float(Fraction(number) / Fraction(10) ** power):.{digits}f}e{power:+03}" for number in (value, error))
     if last > 0:
@@ -41,9 +42,9 @@ def with_error(value: float, error: float) -> str:
     return f"{value:.{digits}f} ± {error:.{digits}f}"
 
 
-def _power_of_ten(number: float) -> int:
-    """Returns the power of ten of a number as it is printed with two digits: of 0.0996 it is that of 0.10."""
-    return int(f"{number:.1e}".partition("e")[2])
+def _power_of_ten(number: float, decimals: int = 1) -> int:
+    """Returns the power of ten of a number as it is printed with one and so many digits: of 0.0996 it is that of 0.10 with two."""
+    return int(f"{number:.{decimals}e}".partition("e")[2])
 
 
 @dataclass(frozen=True)

@@ -64,9 +64,9 @@ std::string rate(double per_second) {
 
 namespace {
 
-/// Returns the power of ten of a number as it is printed with two digits: of 0.0996 it is that of 0.10.
-int power_of_ten(double number) {
-  const std::string text = fmt::format("{:.1e}", number);
+/// Returns the power of ten of a number as it is printed with one and so many digits: of 0.0996 it is that of 0.10 with two.
+int power_of_ten(double number, int decimals = 1) {
+  const std::string text = fmt::format("{:.{}e}", number, decimals);
   return std::stoi(text.substr(text.find('e') + 1));
 }
 
@@ -76,13 +76,18 @@ std::string with_error(double value, double error) {
   if (!(error > 0.0) || !std::isfinite(error) || !std::isfinite(value)) return fmt::format("{:.6g}", value);
   const int last = power_of_ten(error) - 1;
   if (const double larger = std::max(std::abs(value), error); larger < 1e-4 || larger >= 1e7) {
-    const int power = power_of_ten(larger), digits = std::clamp(power - last, 0, 15);
+    const int power = power_of_ten(larger, std::clamp(power_of_ten(larger, 17) - last, 0, 17));
+    const int digits = std::clamp(power - last, 0, 15);
     const auto in_powers = [&](double number) {
       return fmt::format("{:.{}f}e{:+03}", static_cast<double>(number / std::pow(10.0L, power)), digits, power);
     };
     return in_powers(value) + " ± " + in_powers(error);
   }
-  const int decimals = std::clamp(-last, 0, 15);
+  if (last > 0) {
+    const double unit = std::pow(10.0, last);
+    return fmt::format("{:.0f} ± {:.0f}", std::nearbyint(value / unit) * unit, std::nearbyint(error / unit) * unit);
+  }
+  const int decimals = std::min(-last, 15);
   return fmt::format("{:.{}f} ± {:.{}f}", value, decimals, error, decimals);
 }
 
