@@ -19,6 +19,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -112,12 +113,16 @@ class Growing {
     constexpr auto no_limit = std::numeric_limits<std::uint64_t>::max();
     // A disk wedged between obstacles and walls, with no other disk to press on, would fly to and fro ever faster.
     const std::uint64_t stretch = wedged_after + wedged_after_per_disk * disks_.count();
-    for (std::uint64_t without_pairs = 0; without_pairs < stretch && !engine->ended() && !engine->is_stalled();) {
-      const std::uint64_t pairs = engine->counts().pair, events = std::min(watch_.passes(), stretch);
-      engine->run_until(forever, no_limit, events);
-      without_pairs = pairs == engine->counts().pair ? without_pairs + events : 0;
-      done_ = 1.0 - (to_grow - engine->now().high) / whole_;
-      watch_.pass(events);
+    const auto goes_on = [&] { return !engine->ended() && !engine->is_stalled(); };
+    for (std::uint64_t pairs = 0; goes_on();) {
+      for (std::uint64_t left = stretch; left > 0 && goes_on();) {  // in pieces by the clock, which must not show
+        const std::uint64_t events = std::min(watch_.passes(), left);
+        engine->run_until(forever, no_limit, events);
+        left -= events;
+        done_ = 1.0 - (to_grow - engine->now().high) / whole_;
+        watch_.pass(events);
+      }
+      if (std::exchange(pairs, engine->counts().pair) == pairs) break;
     }
     state = engine->state();
     state.time = 0.0;
