@@ -85,6 +85,14 @@ ExitCode run_scene(const RunOptions& options, const Invocation& invocation, Proc
   if (options.verify_horizon) require_comparable(scene, "--verify-horizon");
   if (options.method != "exact" && !scene.observe.empty())
     throw UsageError(fmt::format("--method {}: [observe] measures exact trajectories; leave out one of the two", options.method));
+  const auto with_usage = [](const auto& take_directory) {
+    try {
+      return take_directory();
+    } catch (const OutputError& error) {
+      throw UsageError(error.what());
+    }
+  };
+  with_usage([&] { RunDirectory::require_free(directory_for(options), options.force); });  // to place disks may take minutes
   Simulation simulation = simulation_for(options, scene, engine);
   take_threads(simulation, options, processes);
   const Provenance provenance{.resolved_scene = resolved_toml(scene),
@@ -92,13 +100,7 @@ ExitCode run_scene(const RunOptions& options, const Invocation& invocation, Proc
                               .engine = simulation.engine(),
                               .time_step = simulation.time_step(),
                               .stiffness = simulation.stiffness()};
-  const RunDirectory directory = [&] {
-    try {
-      return RunDirectory(directory_for(options), options.force);
-    } catch (const OutputError& error) {
-      throw UsageError(error.what());
-    }
-  }();
+  const RunDirectory directory = with_usage([&] { return RunDirectory(directory_for(options), options.force); });
   if (options.verbose)
     fmt::print(stderr, "{}  {:<12}{}\n  files       in {}\n", describe(scene), simulation.time_step() ? "method" : "engine",
                method_words(simulation.engine(), simulation.time_step(), simulation.stiffness()), directory.path().string());

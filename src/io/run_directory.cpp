@@ -32,6 +32,8 @@ void synchronise(const fs::path& path, int flags) {
 
 bool is_checkpoint(std::string_view product) { return product == checkpoint_name || product == previous_checkpoint_name; }
 
+constexpr const char* another_place = ", or name another directory with --out";
+
 /// Written row by row while a run lasts.
 bool grows(std::string_view product) {
   return product == "trajectory.h5md" || product == "trajectory.xyz" || product == "samples.csv";
@@ -40,7 +42,7 @@ bool grows(std::string_view product) {
 }  // namespace
 
 RunDirectory::RunDirectory(fs::path path, bool force, std::span<const std::string_view> products, LockHolder holder)
-    : path_(std::move(path)), products_(products), otherwise_(", or name another directory with --out") {
+    : path_(std::move(path)), products_(products), otherwise_(another_place) {
   if (path_.empty()) throw OutputError("the output directory has an empty name; name one with --out");
   try {
     create();
@@ -60,6 +62,17 @@ RunDirectory::RunDirectory(fs::path path, bool force, std::span<const std::strin
     discard_if_empty();
     throw;
   }
+}
+
+void RunDirectory::require_free(const fs::path& path, bool force) {
+  std::error_code error;
+  if (!fs::exists(path, error)) return;
+  RunDirectory directory(path);
+  directory.otherwise_ = another_place;
+  directory.create();
+  directory.lock(LockHolder::process);
+  directory.check_for_results(force);
+  directory.check_writable();
 }
 
 RunDirectory RunDirectory::reopen(fs::path path) {

@@ -66,6 +66,9 @@ class RunDirectory {
   RunDirectory(std::filesystem::path path, bool force, std::span<const std::string_view> products = run_products,
                LockHolder holder = LockHolder::process);
 
+  /// Throws OutputError where the constructor would for what is in the way now. Makes, removes and keeps nothing.
+  static void require_free(const std::filesystem::path& path, bool force);
+
   /// Returns the directory of a run that is to go on. Throws OutputError where there is none, or nothing can be written there.
   [[nodiscard]] static RunDirectory reopen(std::filesystem::path path);
 
