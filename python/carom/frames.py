@@ -95,7 +95,7 @@ class State:
 
     @property
     def spins(self) -> Floats:
-        """Angular velocities, shape (N,), 1 / time, counter-clockwise; shape (0,) where disks are smooth."""
+        """Angular velocities, shape (N,), 1 / time, counter-clockwise; shape (0,) where disks have none."""
         return self._core.spins
 
     @property
@@ -225,7 +225,7 @@ class Frames:
 
     @property
     def spins(self) -> Floats:
-        """Angular velocities, shape (F, N), 1 / time, counter-clockwise; shape (F, 0) where disks are smooth."""
+        """Angular velocities, shape (F, N), 1 / time, counter-clockwise; shape (F, 0) where disks have none."""
         return np.empty((len(self), 0)) if self._spins is None else self._spins
 
     def __repr__(self) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+import sys
 import threading
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -167,8 +168,8 @@ def _own(observables: Iterable[Any], taken: Iterable[str] = ()) -> list[Observab
         if not isinstance(observable, Observable):
             raise TypeError(f"{shown(observable)} is no observable; give a name such as \"pressure\", or a carom.Observable")
         name = words(observable.name, "the name of an observable")
-        if not re.fullmatch(r"[A-Za-z0-9_]+", name):
-            raise ValueError(f"an observable has the name {shown(name)}; take letters, digits and underscores")
+        if not re.fullmatch(r"[A-Za-z0-9_]{1,100}", name):
+            raise ValueError(f"an observable has the name {shown(name)}; take at most 100 letters, digits and underscores")
         if name in names:
             raise ValueError(f"two observables have the name {shown(name)}, and results are by name; give one of them another")
         names.add(name)
@@ -377,6 +378,8 @@ def _call_on_thread(call: Callable[[Any], tuple[Any, ...]], on_progress: Any, ha
         return not raised
 
     def work() -> None:
+        sys.settrace(threading.gettrace())  # the thread is not one of `threading`, which would do so for debuggers and coverage
+        sys.setprofile(threading.getprofile())
         try:
             outcome.append(call(callback))
         except BaseException as error:

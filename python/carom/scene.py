@@ -100,7 +100,7 @@ class Scene:
     def parse(cls, text: str, directory: str | PathLike[str] = ".") -> Scene:
         """Reads a scene from TOML text. Start files that it names are searched in `directory`."""
         place = path_text(directory, "directory")
-        return cls._of(_core.Scene.parse(words(text, "the text"), _MADE, [], place), abspath(place))
+        return cls._of(_core.Scene.parse(words(text, "the text"), _MADE, [], place), _here(place))
 
     @classmethod
     def preset(cls, name: str) -> Scene:
@@ -240,11 +240,11 @@ class Scene:
         return scene_of_parts, self.parts()
 
 
-def _here() -> str:
+def _here(place: str = ".") -> str:
     try:
-        return abspath(".")
+        return abspath(place)
     except FileNotFoundError:  # somebody has removed the directory
-        return "."
+        return place
 
 
 def _parsed(text: str, source: str, overrides: list[str], directory: str) -> _core.Scene:

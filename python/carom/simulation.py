@@ -270,7 +270,7 @@ class Simulation:
 
     @property
     def spins(self) -> Floats:
-        """Angular velocities, shape (N,), 1 / time; shape (0,) where disks are smooth."""
+        """Angular velocities, shape (N,), 1 / time; shape (0,) where disks have none."""
         return self.state.spins
 
     @property

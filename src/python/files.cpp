@@ -33,7 +33,7 @@ void add_descriptions(nb::module_& module) {
       "expected_cost",
       [](const Scene& scene, const std::string& engine) {
         const nb::gil_scoped_release released;
-        Trial trial(scene, engine);
+        Trial trial(scene, engine, [](double) { look_at_python(); });
         const ExpectedCost cost = trial.run();
         return std::tuple(trial.simulation().engine(), trial.simulation().engine_reason(), cost_words(cost), cost.seconds,
                           cost.collisions);

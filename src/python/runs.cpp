@@ -12,6 +12,7 @@
 #include "runner/runner.hpp"
 #include "simulation/start.hpp"
 #include "studies/analysis/analysis.hpp"
+#include "text/numbers.hpp"
 
 #include <carom/io/run_reader.hpp>
 
@@ -20,11 +21,12 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
-#include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <exception>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
@@ -107,11 +109,37 @@ bool may_go_on(const nb::object& report, const Progress& progress) {
   throw nb::python_error();
 }
 
+/// Whether a thread has come to its end.
+class Ended {
+ public:
+  void tell() {
+    const std::lock_guard lock(mutex_);
+    told_ = true;
+    changed_.notify_all();
+  }
+  /// Waits for a hundredth of a second at most.
+  [[nodiscard]] bool wait() {
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, std::chrono::milliseconds(10), [this] { return told_; });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool told_ = false;
+};
+
+/// Does as wait() while other threads of Python run.
+bool waited_for(Ended& ended) {
+  const nb::gil_scoped_release released;
+  return ended.wait();
+}
+
 /// Calls `work`, which raises nothing, on a thread of its own, and waits for its end. What handlers of signals raise meanwhile is
 /// given to `raised`, which ends the work; a second Ctrl-C is raised at once and leaves the work behind. Handlers run here, and
 /// not within code of Python that waits with locks.
 void call_on_thread(nb::object work, const nb::object& raised) {
-  const auto ended = std::make_shared<std::atomic<bool>>(false);
+  const auto ended = std::make_shared<Ended>();
   std::thread thread([ended, work = std::move(work)]() mutable {
     {
       const nb::gil_scoped_acquire locked;
@@ -122,19 +150,20 @@ void call_on_thread(nb::object work, const nb::object& raised) {
       }
       work.reset();
     }
-    *ended = true;
+    ended->tell();
   });
   int interrupts = 0;
-  while (!*ended) {
-    {
-      const nb::gil_scoped_release released;
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
+  while (!waited_for(*ended)) {
     if (PyErr_CheckSignals() == 0) continue;
     nb::python_error error;
     interrupts += error.matches(PyExc_KeyboardInterrupt) ? 1 : 0;
     if (interrupts > 1) {
       thread.detach();
+      // Python must not end while the thread is in it.
+      nb::module_::import_("atexit").attr("register")(nb::cpp_function([ended] {
+        while (!waited_for(*ended))
+          if (PyErr_CheckSignals() != 0) throw nb::python_error();
+      }));
       throw error;
     }
     raised(error.value());
@@ -243,8 +272,19 @@ void take_threads(Simulation& simulation, const std::optional<int>& threads) {
   }
 }
 
+/// Throws std::invalid_argument with the name of the argument where it is no such plan.
+void require_saving_plan(const std::optional<std::string>& text) {
+  try {
+    if (text) (void)saving_plan(*text);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument("checkpoint_every=\"" + *text + "\": " + error.what());
+  }
+}
+
 AnyTuple run(const Scene& scene, const std::string& engine, const std::optional<std::string>& method, double dt,
              std::optional<double> stiffness, const std::optional<std::string>& path, bool overwrite, const RunWishes& wishes) {
+  if (path) RunDirectory::require_free(*path, overwrite);  // to place disks may take minutes
+  require_saving_plan(wishes.checkpoint_every);
   Simulation simulation = [&] {
     const nb::gil_scoped_release released;
     Progress beginning;
@@ -276,6 +316,7 @@ AnyTuple run(const Scene& scene, const std::string& engine, const std::optional<
 
 AnyTuple resume(const std::string& path, std::optional<double> time, std::optional<std::uint64_t> collisions,
                 const RunWishes& wishes) {
+  require_saving_plan(wishes.checkpoint_every);
   const LaterEnd end{time, collisions};
   const ResumedRun resumed(path, end);
   if (resumed.complete() && !end.given())

@@ -126,8 +126,8 @@ bool may_come_to_rest(const Effects& effects) {
 
 }  // namespace
 
-Trial::Trial(const Scene& scene, const std::string& engine)
-    : scene_(scene), engine_(engine), simulation_(make_simulation(trial_of(scene), engine)) {}
+Trial::Trial(const Scene& scene, const std::string& engine, const PlacingHook& placing)
+    : scene_(scene), engine_(engine), simulation_(make_simulation(trial_of(scene), engine, placing)) {}
 
 void Trial::observe(ExpectedCost& cost, const State& start, double equilibrated, double measured) const {
   Scene scene = scene_;

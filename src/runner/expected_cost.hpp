@@ -31,8 +31,8 @@ struct ExpectedCost {
 /// Nothing of it is kept: the scene's own run is the same with it or without.
 class Trial {
  public:
-  /// Draws the start. Throws as make_simulation().
-  Trial(const Scene& scene, const std::string& engine);
+  /// Draws the start. Throws as make_simulation(), and what `placing` throws.
+  Trial(const Scene& scene, const std::string& engine, const PlacingHook& placing = {});
 
   /// Returns the simulation at the start of the scene.
   [[nodiscard]] const Simulation& simulation() const { return simulation_; }

@@ -10,6 +10,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
@@ -57,17 +58,53 @@ def test_every_engine_can_be_interrupted(engine: str) -> None:
     assert sim.time > 0 and sim.check_invariants() == []
 
 
-@pytest.mark.parametrize(
-    "make", [carom.Simulation, carom.run, lambda scene: carom.run(scene, observables=[carom.Observable()])], ids=["made", "run", "observed"]
-)
-def test_the_placing_of_disks_can_be_interrupted(make: Callable[[carom.Scene], object]) -> None:
+def too_full() -> carom.Scene:
     """Walls leave no room for these disks, which an error says after minutes."""
     count, packing_fraction = 50_000, 0.905
     side = math.sqrt(count * math.pi / 4 / packing_fraction)
     box = {"x": [0, side], "y": [0, side], "boundary": "walls"}
     disks = {"count": count, "radius": 0.5, "mass": 1, "positions": {"packing_fraction": packing_fraction}, "velocities": {"temperature": 1}}
-    scene = carom.Scene(box=box, disks=disks, collision={"rule": "specular"}, run={"collisions": 1})
+    return carom.Scene(box=box, disks=disks, collision={"rule": "specular"}, run={"collisions": 1})
+
+
+@pytest.mark.parametrize(
+    "make",
+    [carom.Simulation, carom.run, lambda scene: carom.run(scene, observables=[carom.Observable()]), carom.Scene.check],
+    ids=["made", "run", "observed", "checked"],
+)
+def test_the_placing_of_disks_can_be_interrupted(make: Callable[[carom.Scene], object]) -> None:
+    scene = too_full()
     interrupted(lambda: make(scene), after=0.5)
+
+
+def test_what_is_in_the_way_is_told_before_disks_are_placed(gas: carom.Scene, tmp_path: Path) -> None:
+    carom.run(gas, out=tmp_path / "run")
+    with pytest.raises(carom.OutputError, match="overwrite=True"):
+        carom.run(too_full(), out=tmp_path / "run")
+    with pytest.raises(ValueError, match="fortnight"):
+        carom.run(too_full(), out=tmp_path / "new", checkpoint_every="1 fortnight")
+    assert not (tmp_path / "new").exists()
+
+
+def test_a_second_ctrl_c_leaves_the_run_behind_and_python_ends_after_it() -> None:
+    code = """
+import carom, time
+class Slow(carom.Observable):
+    step = 0.5
+    def sample(self, *arguments):
+        print("begun", flush=True)
+        ends = time.monotonic() + 2
+        while time.monotonic() < ends: pass
+carom.run(carom.Scene.preset("gas"), observables=[Slow()])
+"""
+    script = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert script.stdout is not None and script.stdout.readline() == "begun\n"
+    script.send_signal(signal.SIGINT)
+    time.sleep(0.3)  # two at once are one
+    script.send_signal(signal.SIGINT)
+    _, error = script.communicate(timeout=30)
+    assert script.returncode == -signal.SIGINT
+    assert error.rstrip().endswith("KeyboardInterrupt") and "Fatal" not in error
 
 
 @pytest.mark.parametrize("method", carom.fixed_step_methods())

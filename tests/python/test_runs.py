@@ -146,6 +146,23 @@ def test_an_observable_that_keeps_no_batch_is_told_the_same(gas):
     assert measured["own"].value == pytest.approx(measured["of_library"].value, rel=1e-11)
 
 
+def test_debuggers_and_coverage_see_an_observable_at_work(gas):
+    seen = set()
+
+    class Watched(carom.Observable):
+        step = 0.5
+
+        def sample(self, state, collisions, virial):
+            pass
+
+    threading.settrace(lambda frame, event, argument: seen.add(frame.f_code.co_name))
+    try:
+        carom.run(gas, observables=[Watched()])
+    finally:
+        threading.settrace(None)
+    assert {"sample", "finish"} <= seen
+
+
 def test_what_an_observable_raises_comes_out_of_the_run(gas, tmp_path):
     class Broken(carom.Observable):
         name, follows_collisions = "broken", True
@@ -234,7 +251,7 @@ def test_an_observable_that_cannot_be_pickled_loses_no_files(gas, tmp_path):
     ("attributes", "kind", "sentence"),
     [
         ({"name": 5}, TypeError, "the name of an observable is 5; give a string"),
-        ({"name": "a b"}, ValueError, "has the name 'a b'; take letters, digits and underscores"),
+        ({"name": "a b"}, ValueError, "has the name 'a b'; take at most 100 letters, digits and underscores"),
         ({"name": "pressure"}, ValueError, "two observables have the name 'pressure'"),
         ({"name": "other"}, ValueError, "two observables have the name 'other'"),
         ({"step": "x"}, TypeError, "the step of own is 'x'; give a number"),
@@ -358,6 +375,20 @@ def test_a_run_read_back_measures_what_the_run_did(tmp_path, gas):
     assert np.array_equal(run.events, sim.record(20.0))
 
 
+def test_an_analysis_of_a_gas_with_wells_warns_of_what_the_run_did(tmp_path):
+    side = float(np.sqrt(60 * np.pi / 4 / 0.71))
+    scene = carom.Scene(
+        box={"x": (0, side), "y": (0, side), "boundary": "periodic"},
+        disks={"count": 60, "radius": 0.5, "mass": 1, "positions": "hexagonal", "velocities": {"temperature": 1}},
+        collision={"rule": "specular"},
+        square_well={"width": 1.1, "depth": 0.1},
+        run={"collisions": 30_000},
+    )
+    result = carom.run(scene, out=tmp_path / "run", events=True, observables=["free_flight"])
+    note = result.observables["free_flight"].note
+    assert "domains" in note and carom.open_run(tmp_path / "run").analyze(["free_flight"])["free_flight"].note == note
+
+
 def test_frames_that_a_run_gains_later_are_there(gas, tmp_path):
     carom.run(gas, out=tmp_path / "run", checkpoint_every="1h")
     run = carom.open_run(tmp_path / "run")
@@ -473,6 +504,8 @@ def test_numbers_print_with_their_errors():
     assert str(carom.Number(2.06018, 0.00103)) == "2.0602 ± 0.0010"
     assert str(carom.Number(12345.6, 123.4)) == "12350 ± 120"
     assert str(carom.Number(5.0, 0.0996)) == "5.00 ± 0.10"
+    assert str(carom.Number(np.float32(1e-9), np.float32(1e-10))) == "1.00e-09 ± 0.10e-09"
+    assert str(carom.Number(9.96e7, 1e3)) == "9.96000e+07 ± 0.00010e+07"
     assert str(carom.Number(1.5)) == "1.5" and float(carom.Number(1.5)) == 1.5
 
 
