@@ -122,8 +122,8 @@ class Observation {
   /// moved. Throws SceneError for an observable that has no meaning in the scene.
   explicit Observation(const Simulation& simulation);
   /// Makes the observables of a simulation that was restored, and continues them from what save() wrote into `saved`. Observables
-  /// that add() brings, in the same order as before, are continued too. Throws std::runtime_error where the bytes are not those
-  /// that were written.
+  /// that add() brings, in the same order as before, are continued too; attach() and sample() throw std::invalid_argument where
+  /// one of them is missing. Throws std::runtime_error where the bytes are not those that were written.
   Observation(const Simulation& simulation, std::istream& saved);
   ~Observation();
   Observation(const Observation&) = delete;
@@ -131,8 +131,10 @@ class Observation {
 
   /// Adds an observable. Throws SceneError where the observable follows collisions and something changes velocities between
   /// them; std::logic_error after attach() or the first sample(), for it would not be measured; std::invalid_argument where its
-  /// step is negative or not finite, and for a null pointer.
+  /// step is negative or not finite, for a null pointer, and where another observable was saved in its place.
   void add(std::unique_ptr<Observable> observable);
+  /// Throws std::invalid_argument where an observable of the run that was saved has not been added again.
+  void require_all_added() const;
   /// Returns whether there is nothing to observe.
   [[nodiscard]] bool empty() const;
   /// Returns kT of the start as it was drawn, or of the heat bath; default steps and ranges follow from it.

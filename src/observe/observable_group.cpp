@@ -31,6 +31,10 @@ void tell_tables_apart(std::vector<Measurement>& measured) {
       while (!taken.insert(table.name).second) table.name = one.name + "_" + table.name;
 }
 
+std::string described(const std::string& name, double step) {
+  return fmt::format("the observable {} ({})", name, step > 0.0 ? fmt::format("sampled every {:.9g}", step) : "without samples");
+}
+
 }  // namespace
 
 ObservableGroup::ObservableGroup(const ObservedRun& run)
@@ -39,7 +43,7 @@ ObservableGroup::ObservableGroup(const ObservedRun& run)
 }
 
 ObservableGroup::ObservableGroup(const ObservedRun& run, std::istream& saved)
-    : run_(run), acting_(*run.acting), meter_(run.scene, run.disks) {
+    : run_(run), acting_(*run.acting), meter_(run.scene, run.disks), goes_on_(true) {
   load(saved);
   for (const ObservableRequest& request : run.scene.observe) add(make_observable(request, run_));
 }
@@ -56,10 +60,7 @@ void ObservableGroup::add(MadeObservable made) {
     throw SceneError({}, observable.name() +
                              " follows disks from collision to collision, and knows the collision rules of scenes "
                              "only; do without it, or without the rule of the program");
-  if (const std::size_t index = observables_.size(); index < saved_.size()) {
-    std::istringstream gathered(std::move(saved_[index]));
-    observable.load(gathered);
-  }
+  if (goes_on_) take_up(observable);
   observables_.push_back(std::move(made.observable));
   if (made.changes != nullptr) change_followers_.push_back(made.changes);
   if (!follows) return;
@@ -71,6 +72,28 @@ void ObservableGroup::add(MadeObservable made) {
     followers_.push_back(&observable);
   if (!run_.has_collision_records || observable.needs_places()) follow_log();
   if (observable.needs_places()) stream_->follow_places();
+}
+
+void ObservableGroup::take_up(Observable& observable) {
+  const std::string mine = described(observable.name(), observable.step());
+  if (observables_.size() == saved_.size())
+    throw std::invalid_argument(
+        fmt::format("the run was saved without {}; go on with the observables with which it began, in their order", mine));
+  Saved& saved = saved_[observables_.size()];
+  if (saved.name != observable.name() || saved.step != observable.step())
+    throw std::invalid_argument(
+        fmt::format("the run was saved with {}, and {} is in its place; go on with the observables with which it began, in their "
+                    "order",
+                    described(saved.name, saved.step), mine));
+  std::istringstream gathered(std::move(saved.gathered));
+  observable.load(gathered);
+}
+
+void ObservableGroup::require_all_added() const {
+  if (observables_.size() >= saved_.size()) return;
+  const Saved& missing = saved_[observables_.size()];
+  throw std::invalid_argument(fmt::format("the run was saved with {} of a program's own; go on with it in such a program",
+                                          described(missing.name, missing.step)));
 }
 
 void ObservableGroup::follow_log() {
@@ -191,7 +214,7 @@ void ObservableGroup::save(std::ostream& out) const {
     for (const auto& observable : observables_) {
       std::ostringstream gathered;
       observable->save(gathered);
-      archive(gathered.str());
+      archive(observable->name(), observable->step(), gathered.str());
     }
   });
 }
@@ -204,7 +227,7 @@ void ObservableGroup::load(std::istream& saved) {
       archive(run_.time, run_.temperature, run_.mean_free_time, started_, meter_, changes, saved_stream_, observables);
       changes_ = changes;
       saved_.resize(observables);
-      for (std::string& gathered : saved_) archive(gathered);
+      for (Saved& one : saved_) archive(one.name, one.step, one.gathered);
     });
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(fmt::format("the observables cannot be continued: {}", error.what()));

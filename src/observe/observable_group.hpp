@@ -27,8 +27,11 @@ class ObservableGroup {
   ObservableGroup(const ObservedRun& run, std::istream& saved);
 
   /// Adds an observable, before start(). Throws SceneError where it follows collisions and something changes velocities between
-  /// them.
+  /// them; std::invalid_argument where save() wrote another one in its place.
   void add(MadeObservable made);
+
+  /// Throws std::invalid_argument where an observable that save() wrote has not been added again.
+  void require_all_added() const;
 
   [[nodiscard]] const ObservedRun& run() const { return run_; }
   [[nodiscard]] bool empty() const { return observables_.empty(); }
@@ -61,13 +64,20 @@ class ObservableGroup {
   void save(std::ostream& out) const;
 
  private:
+  struct Saved {
+    std::string name;
+    double step = 0.0;
+    std::string gathered;  ///< what Observable::save() wrote
+  };
   void load(std::istream& saved);
+  /// Lets an observable go on from what was saved in its place.
+  void take_up(Observable& observable);
   void pass_change();
   [[nodiscard]] CollisionRecords touching(const CollisionRecords& collisions);
 
   ObservedRun run_;
-  std::string saved_stream_;        ///< saved data of a run that is resumed
-  std::vector<std::string> saved_;  ///< saved data of each observable
+  std::string saved_stream_;  ///< saved data of a run that is resumed
+  std::vector<Saved> saved_;  ///< observables of that run
   std::vector<std::unique_ptr<Observable>> observables_;
   std::vector<Observable*> followers_;  ///< observables of whole collisions
   std::vector<RecordFollower*> record_followers_;
@@ -79,6 +89,7 @@ class ObservableGroup {
   std::vector<PairCollision> collisions_;
   std::vector<CollisionRecord> touching_;
   bool started_ = false;
+  bool goes_on_ = false;  ///< from what save() wrote
 };
 
 }  // namespace carom

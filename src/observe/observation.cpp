@@ -40,12 +40,14 @@ class Observation::Driver {
   }
 
   void attach(RunHooks& hooks) {
+    group_.require_all_added();
     attached_ = true;
     attach(hooks, group_, [](const std::vector<Observable*>& observables, const State& state, const Totals& totals) {
       for (Observable* observable : observables) observable->sample(state, totals);
     });
   }
   void attach_on_thread(RunHooks& hooks) {
+    group_.require_all_added();
     attached_ = true;
     if (group_.empty()) return;
     try {
@@ -63,6 +65,7 @@ class Observation::Driver {
   void sample(Simulation& simulation) {
     if (&simulation != &simulation_) throw std::logic_error("an observation samples the simulation that it was made for");
     require_unchanged();
+    group_.require_all_added();
     if (!begun_) begin(simulation);
     if (group_.follows_collisions()) {
       simulation.take_events(events_);
@@ -190,6 +193,7 @@ Observation::Observation(const Simulation& simulation, std::istream& saved)
 Observation::~Observation() = default;
 
 void Observation::add(std::unique_ptr<Observable> observable) { driver_->add(std::move(observable)); }
+void Observation::require_all_added() const { driver_->group().require_all_added(); }
 bool Observation::empty() const { return driver_->group().empty(); }
 double Observation::reference_temperature() const { return driver_->group().run().temperature; }
 std::vector<double> Observation::steps() const { return driver_->group().steps(); }

@@ -30,9 +30,9 @@ Runner::Runner(Simulation& simulation, const RunDirectory* directory, Provenance
     extended_ = from->facts().finished;
   } else {
     observation_.emplace(simulation_);
+    if (options_.observe) options_.observe(*observation_);
     if (directory_ != nullptr) writer_.emplace(*directory_, scene_, disks_of(scene_), provenance_);
   }
-  if (options_.observe) options_.observe(*observation_);
 }
 
 RunnerOutcome Runner::run(const RunnerHooks& hooks) {
@@ -158,6 +158,8 @@ void Runner::read(const Checkpoint& from) {
     archive(measurements_);
   });
   from.read("observables", [&](std::istream& in) { observation_.emplace(simulation_, in); });
+  if (options_.observe) options_.observe(*observation_);
+  observation_->require_all_added();
   if (provenance_.resolved_scene != from.facts().provenance.resolved_scene) provenance_.resolved_scene = scene_with_steps();
   from.read("schedule", [&](std::istream& in) { schedule_.assign(std::istreambuf_iterator<char>(in), {}); });
   if (from.has("start"))
