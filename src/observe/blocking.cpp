@@ -1,5 +1,6 @@
 #include "observe/blocking.hpp"
 
+#include <fmt/format.h>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
@@ -187,7 +188,7 @@ void Blocking::fill(Scalar& scalar, double step, double factor, double offset, i
   // A conserved quantity scatters by rounding alone, which need not look like noise.
   const bool conserved = found->error && *found->error <= 1e-13 * std::abs(found->mean);
   if (found->error && !found->statistical_inefficiency && !conserved && scalar.note.empty())
-    scalar.note = "the run is too short for its correlations: the error is a lower bound";
+    scalar.note = fmt::format("{}: the error is a lower bound", too_short);
 }
 
 std::optional<Halves> compared_halves(double share, double first, double rest, double error_of_rest, double blocks) {

@@ -8,9 +8,13 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace carom {
+
+/// How a note begins where blocks of any length are correlated.
+inline constexpr std::string_view too_short = "the run is too short for its correlations";
 
 /// The entry of a table for an unknown number.
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();

@@ -1,5 +1,7 @@
 #include "observe/drift.hpp"
 
+#include "observe/blocking.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -49,6 +51,23 @@ bool says_drift(const std::string& note) { return says_not_in_equilibrium(note) 
 
 }  // namespace
 
+/// Whether energy, room or the size of disks changes in one direction for the whole of a run: disks cool and nothing heats them,
+/// they grow, or a wall moves on and on.
+bool changes_throughout(const Effects& effects) {
+  const auto heats = [](const WallProperties& wall) { return wall.temperature || wall.vibration || wall.oscillation; };
+  const auto moves_on = [](const WallProperties& wall) { return wall.velocity.value_or(0.0) != 0.0; };
+  const bool heated = effects.thermostat || effects.brownian || effects.tumbling || effects.shear ||
+                      !effects.acceleration().isZero(0.0) || std::ranges::any_of(effects.walls, heats);
+  const bool cools = (effects.dissipate() || effects.drag_rate() > 0.0) && !heated;
+  return cools || effects.growth_rate() > 0.0 || std::ranges::any_of(effects.walls, moves_on);
+}
+
+/// A longer run would not make it longer than its correlations.
+void say_change(Scalar& scalar) {
+  if (const std::size_t at = scalar.note.find(too_short); at != std::string::npos)
+    scalar.note.replace(at, too_short.size(), fmt::format("{}: a mean over a change", not_steady));
+}
+
 void note_drifts(std::vector<Measurement>& measured, const Scene& scene) {
   const Effects& effects = scene.effects;
   std::size_t numbers = 0, rows = 0;
@@ -63,10 +82,13 @@ void note_drifts(std::vector<Measurement>& measured, const Scene& scene) {
   };
   const bool is_steady_expected =
       !effects.dissipate() && !(effects.drag_rate() > 0.0) && !(effects.growth_rate() > 0.0) && scene.changes.empty();
+  const bool changing = changes_throughout(effects);
   for (Measurement& one : measured) {
-    for (Scalar& scalar : one.scalars)
+    for (Scalar& scalar : one.scalars) {
+      if (changing) say_change(scalar);
       if (scalar.halves && !is_chance(*scalar.halves, numbers))
         put_before(scalar.note, words_of(*scalar.halves, is_steady_expected));
+    }
     if (const MostDifferent most = most_different(one); most.column != nullptr && !is_chance(most.column->halves, rows))
       put_before(one.note, fmt::format("{} ({} at {})", words_of(most.column->halves, is_steady_expected), most.column->column,
                                        place_of(*most.column, *most.table)));

@@ -2,6 +2,7 @@
 
 #include "observe/blocking.hpp"
 
+#include <fmt/format.h>
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -220,7 +221,7 @@ void MultipleTau::Row::fill(Scalar& scalar, double step, double factor) const {
   scalar.error = factor * *found.error;
   scalar.halves = in_proportion(if_known(integral ? integral_halves : halves), factor);
   if (found.statistical_inefficiency) scalar.integrated_correlation_time = 0.5 * step * width * *found.statistical_inefficiency;
-  if (found.lower_bound) scalar.note += "; the run is too short for its correlations: the error is a lower bound";
+  if (found.lower_bound) scalar.note += fmt::format("; {}: the error is a lower bound", too_short);
 }
 
 std::string MultipleTau::note_on_errors(const std::vector<Row>& rows) {

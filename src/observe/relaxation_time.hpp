@@ -30,8 +30,7 @@ namespace carom {
     found.value = time;
     const double share = (level - before->mean) / (here->mean - before->mean);  // of the way from one row to the other
     if (before->error && here->error) found.error = time * std::lerp(*before->error, *here->error, share) / std::abs(slope);
-    if (before->lower_bound || here->lower_bound)
-      found.note = "the run is too short for its correlations: the error is a lower bound";
+    if (before->lower_bound || here->lower_bound) found.note = fmt::format("{}: the error is a lower bound", too_short);
     const bool is_nearer_to_this = level - here->mean < before->mean - level;
     const double at_row = is_nearer_to_this ? here->mean : before->mean, per_fall = -time / slope;
     found.halves = in_proportion(rows.halves(is_nearer_to_this ? row : row - 1), per_fall, time - per_fall * at_row);
