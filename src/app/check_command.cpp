@@ -91,8 +91,8 @@ ExitCode check(const CheckOptions& options) {
   const Effects whole_run = detail::effects_of_whole_run(scene);
   const std::string start =
       trial ? start_and_engine(scene, trial->simulation())
-            : fmt::format("  start       not drawn: more than {} disks; `carom run` draws them, in some {:.0f} bytes per disk\n",
-                          grouped(most_disks_drawn), expected_bytes_per_disk(scene.effects));
+            : fmt::format("  start       not drawn: more than {} disks; `carom run` draws them\n  memory      {}\n",
+                          grouped(most_disks_drawn), expected_memory(scene).words());
   fmt::print("{} is a valid scene{}\n\n", scene.source, scene.title.empty() ? "" : fmt::format(": {}", scene.title));
   fmt::print("{}  conserved   {}\n{}", describe(scene), conserved_words(scene, whole_run), start);
   std::optional<double> logged;

@@ -14,7 +14,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <fstream>
 #include <limits>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -67,6 +70,14 @@ Part sum_of(const std::vector<Part>& parts) {
   Part sum{0.0, 0.0};
   for (const Part& part : parts) sum.time += part.time, sum.collisions += part.collisions;
   return sum;
+}
+
+/// Returns the bytes that programs can still be given, in the words of Linux; empty where the system does not say.
+std::optional<double> memory_free() {
+  std::ifstream file("/proc/meminfo");
+  for (std::string line; std::getline(file, line);)
+    if (double kilobytes = 0.0; std::sscanf(line.c_str(), "MemAvailable: %lf kB", &kilobytes) == 1) return 1024.0 * kilobytes;
+  return std::nullopt;
 }
 
 bool has_end(const Part& part) { return part.time < unlimited || part.collisions < unlimited; }
@@ -222,12 +233,18 @@ ExpectedCost Trial::run() {
   return cost;
 }
 
-double expected_bytes_per_disk(const Effects& effects) {
+ExpectedMemory expected_memory(const Scene& scene) {
   constexpr double without_effects = 215.0;  // of equal disks at a packing fraction of 0.5, as the tests measure it
-  double bytes = without_effects;
+  ExpectedMemory memory{.bytes_per_disk = without_effects, .free = memory_free()};
   for (const detail::EffectTraits& effect : detail::all_effects())
-    if (effect.is_present(effects)) bytes += effect.bytes_per_disk;
-  return bytes;
+    if (effect.is_present(scene.effects)) memory.bytes_per_disk += effect.bytes_per_disk;
+  memory.bytes = memory.bytes_per_disk * static_cast<double>(scene.disk_count());
+  return memory;
+}
+
+std::string ExpectedMemory::words() const {
+  return fmt::format("some {:.0f} bytes per disk, {} in all{}", bytes_per_disk, size(bytes),
+                     free ? fmt::format("; {} are free", size(*free)) : "");
 }
 
 std::string cost_words(const ExpectedCost& cost) {

@@ -49,8 +49,17 @@ class Trial {
   Simulation simulation_;
 };
 
-/// Returns the memory that a run of many disks takes by the table of effects; bytes per disk. Fixed shapes and bonds add to it.
-[[nodiscard]] double expected_bytes_per_disk(const Effects& effects);
+/// The memory that a run of many disks takes by the table of effects; fixed shapes and bonds add to it.
+struct ExpectedMemory {
+  double bytes_per_disk = 0.0;
+  double bytes = 0.0;
+  std::optional<double> free;  ///< bytes that the system can give; empty where it does not say
+
+  [[nodiscard]] bool is_too_much() const { return free && bytes > *free; }
+  /// Returns "some 215 bytes per disk, 22 GB in all; 24 GB are free".
+  [[nodiscard]] std::string words() const;
+};
+[[nodiscard]] ExpectedMemory expected_memory(const Scene& scene);
 
 /// Returns the cost in words: "about 12 s on this machine for 23 million collisions (a trial run of 200 ms: 1.92 million
 /// collisions per second)".

@@ -183,10 +183,10 @@ INSTANTIATE_TEST_SUITE_P(All, EffectTraitsHold, testing::ValuesIn(names_of_all()
 TEST(ExpectedMemory, IsWithinATenthOfThatOfAGas) {
   Scene scene = gas_scene(20'000, 0.5, Boundary::periodic);
   const auto measured = [&] { return static_cast<double>(make_simulation(scene).bytes()) / 20'000.0; };
-  EXPECT_NEAR(expected_bytes_per_disk(scene.effects), measured(), 0.1 * measured());
+  EXPECT_NEAR(expected_memory(scene).bytes_per_disk, measured(), 0.1 * measured());
   scene.effects.thermostat = Thermostat{1.0, 1.0};
   scene.effects.collision.roughness = 1.0;
-  EXPECT_NEAR(expected_bytes_per_disk(scene.effects), measured(), 0.1 * measured());
+  EXPECT_NEAR(expected_memory(scene).bytes_per_disk, measured(), 0.1 * measured());
 }
 
 TEST(CentreOfMass, IsThermalWhereMomentumIsExchangedAtRandom) {
