@@ -31,7 +31,7 @@ constexpr std::array<Heading, 9> all_headings = {{
 using ExamplesOf = std::pair<std::string_view, std::span<const Example>>;
 
 constexpr std::array<Example, 3> init_examples = {{
-    {"carom init", "write box.toml, the scene of the README"},
+    {"carom init", "write box.toml, the classic scene"},
     {"carom init --list", "list the scenes that it can write"},
     {"carom init gas -o my.toml", "write the scene gas under a name of your own"},
 }};

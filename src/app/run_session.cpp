@@ -4,6 +4,7 @@
 #include "app/terminal_summary.hpp"
 #include "core/seconds.hpp"
 #include "io/summary.hpp"
+#include "pages/summary_rows.hpp"
 #include "runner/run_threads.hpp"
 #include "runner/runner.hpp"
 #include "studies/horizon/json.hpp"
@@ -71,6 +72,13 @@ SamplingGrid paced(LiveView& view, double pace) {
           [&view, pace](std::uint64_t, const State& state, const Totals& totals) { view.keep_pace(pace, state, totals); }};
 }
 
+/// Whether the disks could not go on.
+bool has_ended_early(StopReason stopped) {
+  const auto early = {StopReason::jammed,  StopReason::collapsed,     StopReason::overheated, StopReason::cooled,
+                      StopReason::at_rest, StopReason::no_collisions, StopReason::blocked,    StopReason::invalid_state};
+  return std::find(early.begin(), early.end(), stopped) != early.end();
+}
+
 class Session {
  public:
   explicit Session(const RunSession& given)
@@ -110,6 +118,9 @@ class Session {
       fmt::print("{}", terminal_summary(report, given_.simulation.whole_scene(),
                                         {given_.directory.path(), files, given_.invocation.program}));
     }
+    if (options_.quiet && has_ended_early(report.stopped))
+      fmt::print(stderr, "carom: {}: at time {:.6g}, {}\n", given_.directory.path().string(), report.time,
+                 why_stopped(report, &given_.simulation.whole_scene()));
     if (report.stopped == StopReason::interrupted) say_how_to_go_on();
     const ExitCode code = exit_code_of(report);
     // Interrupted means saved: who submits the run again for this code would find nothing to go on from.

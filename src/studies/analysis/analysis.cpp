@@ -133,7 +133,9 @@ Analysis analyse(const std::filesystem::path& run_directory, const std::vector<s
   Analysis analysis{.scene = scene_with(run, observables), .observables = {}, .samples = run.samples(), .events = run.events()};
   Scene& scene = analysis.scene;
   if (scene.observe.empty())
-    throw std::invalid_argument("the run's scene has no [observe] table; name what to measure, such as pressure");
+    throw std::invalid_argument(observables.empty()
+                                    ? "the run's scene has no [observe] table; name what to measure, such as pressure"
+                                    : "there is nothing to measure; name an observable, such as pressure");
   const auto is_work = [](const ObservableRequest& request) { return request.name == "work"; };
   if (observables.empty() && !std::ranges::all_of(scene.observe, is_work)) std::erase_if(scene.observe, is_work);
   for (const ObservableRequest& request : scene.observe)
