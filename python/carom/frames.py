@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from os import PathLike
+from os.path import splitext
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -279,12 +280,15 @@ class Frames:
         return animation_of_frames(self, every=every, color=color, trail=trail, interval=interval)
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Writes all arrays and the scene into an .npz file, for `numpy.load()`. Raises OutputError where it cannot be written.
+        """Writes all arrays and the scene into an .npz file, for `numpy.load()`. Raises OutputError where it cannot be written, ValueError
+        for a name with another ending.
 
         `walls`, shape (F, 4, 2), has position and velocity of the walls left, right, bottom and top where one of them moves, and
         `shear_displacement`, shape (F,), how far images above are from those below where the box is sheared.
         """
         place = path_text(path, "path")
+        if (ending := splitext(place)[1]) not in ("", ".npz"):
+            raise ValueError(f"{place}: frames are written in numpy's format; name a file that ends in .npz, not in {ending}")
         arrays = {name: getattr(self, name) for name in ("time", "scale", "collisions", "virial", "radii", "species")} | self._sampled()
         try:
             np.savez(place, scene=np.array(self.scene.toml), state_hash=np.array(self.state_hash), **arrays)

@@ -175,6 +175,10 @@ def _own(observables: Iterable[Any], taken: Iterable[str] = ()) -> list[Observab
         names.add(name)
         if not 0.0 <= real(observable.step, f"the step of {name}") < math.inf:
             raise ValueError(f"the step of {name} is {shown(observable.step)}; give a time, or 0 where it takes no samples")
+        if observable.step == 0 and type(observable).sample is not Observable.sample:
+            raise ValueError(f"{name} has a sample(), and its step is 0, so that it would never be called; give it a step, the time between two samples")
+        if not observable.follows_collisions and type(observable).collisions is not Observable.collisions:
+            raise ValueError(f"{name} has collisions(), and follows_collisions is False, so that it would never be called; set it to True")
         for attribute in ("needs_positions", "follows_collisions"):
             value = getattr(observable, attribute)
             if not isinstance(value, bool):

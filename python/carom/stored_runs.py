@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 import numpy.typing as npt
+from numpy.lib.mixins import NDArrayOperatorsMixin
 
 from carom._arguments import frame_number, list_of_words, path_text, whole
 from carom._errors import OutputError
@@ -221,8 +222,31 @@ class StoredFrames:
         return StoredArray(self._path, name)
 
 
-class StoredArray:
-    """One array of a trajectory file, read piece by piece; the file is open only meanwhile."""
+def _parts_of(index: Any) -> tuple[Any, Any, Any] | None:
+    """Returns an index by frame, disk and axis, or None where it is of another kind."""
+    parts = index if isinstance(index, tuple) else (index,)
+    if any(part is None for part in parts) or len(parts) - sum(part is Ellipsis for part in parts) > 3:
+        return None
+    if (at := next((k for k, part in enumerate(parts) if part is Ellipsis), None)) is not None:
+        parts = (*parts[:at], *[slice(None)] * (4 - len(parts)), *parts[at + 1 :])
+    frames, disks, axis = (*parts, *[slice(None)] * (3 - len(parts)))
+    return frames, disks, axis
+
+
+def _is_simple(part: Any) -> bool:
+    """Returns whether a file is read by this part of an index as an array is."""
+    if isinstance(part, slice):
+        return part.step is None or part.step > 0
+    return isinstance(part, (int, np.integer)) and not isinstance(part, bool)
+
+
+def _is_whole(part: Any) -> bool:
+    return isinstance(part, slice) and part == slice(None)
+
+
+class StoredArray(NDArrayOperatorsMixin):
+    """One array of a trajectory file, read piece by piece; the file is open only meanwhile. It is indexed as numpy's arrays are, and
+    `array[:]`, `np.asarray(array)` and arithmetic read all of it."""
 
     def __init__(self, path: Path, name: str) -> None:
         self._path, self._name = path, name
@@ -238,10 +262,32 @@ class StoredArray:
             return action(dataset)
 
     def __getitem__(self, index: Any) -> npt.NDArray[np.float64]:
-        array = self._read(lambda dataset: dataset[index])
-        whole = np.asarray(array)
-        # H5MD has three coordinates; a box has two.
-        return whole if self._name == "time" or len(self.shape) < 3 else np.ascontiguousarray(whole[..., :2])
+        if len(self.shape) < 3:
+            return np.asarray(self._read(lambda dataset: dataset[index]))
+        parts = _parts_of(index)
+        if parts is not None and all(_is_simple(part) for part in parts):
+            frames, disks, axis = parts
+            return self._planes((frames, disks))[..., axis]
+        if parts is not None and np.ndim(parts[0]) == 1 and all(_is_whole(part) for part in parts[1:]):  # frames in any order
+            rows, places = np.unique(np.arange(self.shape[0])[parts[0]], return_inverse=True)
+            if len(rows) > 0:
+                return self._planes((rows,))[places]
+        return self._planes((slice(None),))[index]
+
+    def _planes(self, index: tuple[Any, ...]) -> npt.NDArray[np.float64]:
+        """Reads frames, or disks of frames. H5MD has three coordinates; a box has two."""
+        return np.ascontiguousarray(np.asarray(self._read(lambda dataset: dataset[index]))[..., :2])
+
+    def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **options: Any) -> Any:
+        return getattr(ufunc, method)(*(one[:] if isinstance(one, StoredArray) else one for one in inputs), **options)
+
+    @property
+    def ndim(self) -> int:
+        return len(self.shape)
+
+    @property
+    def dtype(self) -> np.dtype[np.float64]:
+        return np.dtype(np.float64)
 
     def __len__(self) -> int:
         return self.shape[0]

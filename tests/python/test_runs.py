@@ -185,6 +185,40 @@ def test_what_an_observable_raises_comes_out_of_the_run(gas, tmp_path):
         carom.run(gas, observables=[Wrong()])
 
 
+class Samples(carom.Observable):
+    """Counts its samples."""
+
+    def __init__(self, name, step=0.5):
+        self.name, self.step, self.samples = name, step, 0
+
+    def sample(self, state, collisions, virial):
+        self.samples += 1
+
+    def finish(self, time, collisions, virial):
+        return {"samples": self.samples}
+
+
+@needs_program
+def test_a_run_goes_on_with_the_observables_with_which_it_began(gas, tmp_path, program):
+    directory = tmp_path / "run"
+    carom.run(gas, out=directory, observables=[Samples("one"), Samples("other"), "pressure"], checkpoint_every="1h")
+    before = {path.name: path.read_bytes() for path in directory.iterdir()}
+    for observables, sentence in [
+        ([], r"saved with the observable one \(sampled every 0.5\) of a program's own; go on with it in such a program"),
+        ([Samples("one")], r"saved with the observable other \(sampled"),
+        ([Samples("other"), Samples("one")], r"saved with the observable one \(sampled every 0.5\), and the observable other"),
+        ([Samples("one", 0.25), Samples("other")], r"sampled every 0.5\), and the observable one \(sampled every 0.25\) is in its place"),
+        ([Samples("one"), Samples("other"), Samples("third")], "saved without the observable third"),
+    ]:
+        with pytest.raises(ValueError, match=sentence):
+            carom.resume(directory, time=30.0, observables=observables)
+    refused = program("extend", directory, "--time", "30")
+    assert refused.returncode == 2 and "saved with the observable one" in refused.stderr
+    assert {path.name: path.read_bytes() for path in directory.iterdir()} == before
+    longer = carom.resume(directory, time=30.0, observables=[Samples("one"), Samples("other")])
+    assert longer.observables["one"]["samples"].value == 61
+
+
 @pytest.mark.parametrize("method", ["sample", "collisions"])
 def test_files_are_complete_until_an_observable_failed(gas, tmp_path, method):
     class Broken(carom.Observable):
@@ -257,6 +291,8 @@ def test_an_observable_that_cannot_be_pickled_loses_no_files(gas, tmp_path):
         ({"step": "x"}, TypeError, "the step of own is 'x'; give a number"),
         ({"step": -1.0}, ValueError, "the step of own is -1.0; give a time, or 0"),
         ({"step": float("nan")}, ValueError, "the step of own is nan"),
+        ({"__class__": type("Sampling", (carom.Observable,), {"sample": print})}, ValueError, "own has a sample.., and its step is 0"),
+        ({"__class__": type("Following", (carom.Observable,), {"collisions": print})}, ValueError, "follows_collisions is False"),
         ({"finish": lambda *_: None}, TypeError, r"own.finish\(\) returned None; give a mapping"),
         ({"finish": lambda *_: {1: 2.0}}, TypeError, r"a name of what own.finish\(\) returned is 1; give a string"),
     ],
@@ -387,6 +423,34 @@ def test_an_analysis_of_a_gas_with_wells_warns_of_what_the_run_did(tmp_path):
     result = carom.run(scene, out=tmp_path / "run", events=True, observables=["free_flight"])
     note = result.observables["free_flight"].note
     assert "domains" in note and carom.open_run(tmp_path / "run").analyze(["free_flight"])["free_flight"].note == note
+
+
+def test_arrays_of_a_stored_run_are_indexed_as_numpys_are(gas, tmp_path):
+    stored = carom.run(gas.set({"run.time": 3.0}), out=tmp_path / "run") and carom.open_run(tmp_path / "run").frames.positions
+    whole = stored[:]
+    frames, disks, _ = whole.shape
+    assert whole.shape == stored.shape == (7, gas.count, 2) and stored.ndim == 3 and stored.dtype == whole.dtype
+    everything, mask, odd = slice(None), np.arange(frames) % 3 == 0, np.arange(disks) % 2 == 1
+    of_frames = [0, -1, np.int64(2), everything, slice(1, 5, 2), slice(None, None, -1), [4, 0, 4], [], mask, np.array([2, -1])]
+    of_disks = [3, -2, everything, slice(-5, None), slice(9, 2, -3), [7, 1], odd]
+    of_axes = [0, 1, -1, -2, everything, slice(1), slice(None, None, -1), [1, 0], [True, False]]
+    indices = [(a, b, c) for a in of_frames for b in of_disks for c in of_axes] + [(a, b) for a in of_frames for b in of_disks]
+    indices += [*of_frames, (), Ellipsis, (Ellipsis, 0), (Ellipsis, -1), (2, Ellipsis), (2, Ellipsis, 1), (slice(2), 1, 0, Ellipsis), None]
+    indices += [(everything, None, 0), (None, 1), True, whole > 0.0, whole[..., 0] > 0.0, ([0, 1], [2, 3], [1, 0]), (7,), (0, disks), (0, 0, 2), (0, 0, 0, 0)]
+    refused = 0
+    for index in indices:
+        try:
+            expected = whole[index]
+        except IndexError:
+            refused += 1
+            with pytest.raises(IndexError):
+                stored[index]
+            continue
+        found = stored[index]
+        assert found.shape == expected.shape and np.array_equal(found, expected), index
+    assert refused < len(indices) // 3
+    assert np.array_equal(stored**2 - 1, whole**2 - 1) and np.mean(stored) == np.mean(whole)
+    assert np.array_equal(np.hypot(*np.moveaxis(stored, 2, 0)), np.hypot(*np.moveaxis(whole, 2, 0)))
 
 
 def test_frames_that_a_run_gains_later_are_there(gas, tmp_path):
