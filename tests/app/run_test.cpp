@@ -1,5 +1,6 @@
 // carom run: where it writes, what it prints, and what it leaves alone.
 
+#include "runner/expected_cost.hpp"
 #include "support/program_test.hpp"
 
 #include <gmock/gmock.h>
@@ -53,6 +54,29 @@ TEST_F(RunCommand, QuietPrintsNothing) {
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.out + outcome.err, IsEmpty());
   EXPECT_TRUE(fs::exists(file("gas/summary.json")));
+}
+
+TEST_F(RunCommand, QuietSaysWhyARunEndedEarly) {
+  const Outcome outcome =
+      carom({"run", CAROM_SOURCE_DIR "/docs/scenes/bouncing_ball.toml", "--quiet", "--out", "ball", "--set", "run.time=100.0"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.out, IsEmpty());
+  EXPECT_THAT(outcome.err, AllOf(StartsWith("carom: ball: at time "), HasSubstr(", collapsed: disk 0 collides at ever shorter")));
+}
+
+TEST_F(RunCommand, MoreDisksThanThereIsMemoryForAreRefusedBeforeTheyAreDrawn) {
+  const std::string disks = "2000000000";
+  const std::vector<std::string> overrides = {"disks.0.count=" + disks, "box.x=[0.0,100000.0]", "box.y=[0.0,100000.0]"};
+  if (!expected_memory(parse_scene(fifty_disks, "gas.toml", overrides)).is_too_much()) GTEST_SKIP() << "there is enough";
+  std::vector<std::string> words = {"run", "gas.toml"};
+  for (const std::string& word : overrides) words.insert(words.end(), {"--set", word});
+  const Outcome outcome = carom(words);
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err,
+              AllOf(StartsWith("carom: gas.toml: there is not enough memory for 2,000,000,000 disks: they need some 215 "
+                               "bytes per disk, 430 GB in all; "),
+                    HasSubstr(" are free; fewer disks need less")));
+  EXPECT_FALSE(fs::exists(file("gas")));
 }
 
 TEST_F(RunCommand, VerboseDescribesTheSceneOnStderr) {

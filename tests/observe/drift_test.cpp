@@ -387,6 +387,28 @@ TEST(DriftOfARun, OfDisksThatLoseEnergyIsCalledNotSteady) {
   }
 }
 
+TEST(DriftOfARun, ACorrelatedNumberOfAChangeIsNotToBeMeasuredByALongerRun) {
+  const std::string lower_bound = "the run is too short for its correlations: the error is a lower bound";
+  const auto note_in = [&](const Scene& scene) {
+    std::vector<Measurement> all(1);
+    all[0].scalars.push_back({.name = "x", .note = lower_bound});
+    note_drifts(all, scene);
+    return all[0].scalars[0].note;
+  };
+  Scene cooling, dragged, growing, compressed, heated, falling, vibrated;
+  cooling.effects.collision.restitution = 0.9;
+  dragged.effects.drag = Drag{0.1};
+  growing.effects.growth = Growth{0.01};
+  compressed.effects.walls[1].velocity = -0.1;
+  for (const Scene& scene : {cooling, dragged, growing, compressed})
+    EXPECT_EQ(note_in(scene), "not steady: a mean over a change: the error is a lower bound");
+  heated = falling = vibrated = cooling;
+  heated.effects.thermostat = Thermostat{1.0, 1.0};
+  falling.effects.gravity = Gravity{{0.0, -1.0}};
+  vibrated.effects.walls[2].vibration = 1.0;
+  for (const Scene& scene : {Scene{}, heated, falling, vibrated}) EXPECT_EQ(note_in(scene), lower_bound);
+}
+
 TEST(DriftOfARun, WhereTheSceneChangesIsCalledNotSteady) {
   std::vector<Measurement> all(1);
   all[0].scalars.push_back({.name = "x", .halves = Halves{.first = 2.0, .rest = 1.0, .error = 0.1, .probability = 0.0}});
