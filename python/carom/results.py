@@ -141,12 +141,33 @@ class Table(Mapping[str, npt.NDArray[Any]]):
         return frame
 
     def to_xarray(self) -> xarray.Dataset:
-        """Returns the table as a Dataset over its first column. Needs xarray (pip install carom[tables])."""
+        """Returns the table as a Dataset over its first column, or where its rows are all places of a grid over its first two or three.
+        Needs xarray (pip install carom[tables])."""
         import xarray
 
-        index, *others = self.columns
-        variables = {name: ((index,), self[name], {"units": self.units.get(name, "")}) for name in others}
-        return xarray.Dataset(variables, coords={index: self[index]}, attrs={"title": self.title})
+        axes, order = self._grid()
+        places = {name: np.unique(self[name]) if len(axes) > 1 else self[name] for name in axes}
+        shape = tuple(len(place) for place in places.values())
+        variables = {
+            name: (axes, self[name][order].reshape(shape), {"units": self.units.get(name, "")}) for name in self.columns if name not in axes
+        }
+        return xarray.Dataset(variables, coords=places, attrs={"title": self.title})
+
+    def _grid(self) -> tuple[tuple[str, ...], npt.NDArray[np.intp]]:
+        """Returns the first columns, each combination of whose numbers is in one row, and the order of rows that counts the last fastest."""
+        rows = len(self[self.columns[0]])
+        for count in (2, 3):
+            names = tuple(self.columns[:count])
+            if len(names) < count or any(self[name].dtype.kind != "f" for name in names):
+                break
+            places = [np.unique(self[name], return_inverse=True) for name in names]
+            sizes = [len(numbers) for numbers, _ in places]
+            if min(sizes) < 2 or math.prod(sizes) != rows:
+                continue
+            row = np.ravel_multi_index(tuple(inverse for _, inverse in places), sizes)
+            if len(np.unique(row)) == rows:
+                return names, np.argsort(row)
+        return (self.columns[0],), np.arange(rows)
 
     def plot(
         self, x: str | None = None, y: str | Sequence[str] | None = None, yerr: str | None = None, ax: Axes | None = None, **style: Any

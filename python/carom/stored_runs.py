@@ -224,12 +224,12 @@ class StoredFrames:
 
 def _parts_of(index: Any) -> tuple[Any, Any, Any] | None:
     """Returns an index by frame, disk and axis, or None where it is of another kind."""
-    parts = index if isinstance(index, tuple) else (index,)
+    parts: tuple[Any, ...] = index if isinstance(index, tuple) else (index,)
     if any(part is None for part in parts) or len(parts) - sum(part is Ellipsis for part in parts) > 3:
         return None
     if (at := next((k for k, part in enumerate(parts) if part is Ellipsis), None)) is not None:
-        parts = (*parts[:at], *[slice(None)] * (4 - len(parts)), *parts[at + 1 :])
-    frames, disks, axis = (*parts, *[slice(None)] * (3 - len(parts)))
+        parts = parts[:at] + (slice(None),) * (4 - len(parts)) + parts[at + 1 :]
+    frames, disks, axis = parts + (slice(None),) * (3 - len(parts))
     return frames, disks, axis
 
 
@@ -272,7 +272,8 @@ class StoredArray(NDArrayOperatorsMixin):
             rows, places = np.unique(np.arange(self.shape[0])[parts[0]], return_inverse=True)
             if len(rows) > 0:
                 return self._planes((rows,))[places]
-        return self._planes((slice(None),))[index]
+        whole = self._planes((slice(None),))
+        return np.asarray(whole[index])
 
     def _planes(self, index: tuple[Any, ...]) -> npt.NDArray[np.float64]:
         """Reads frames, or disks of frames. H5MD has three coordinates; a box has two."""

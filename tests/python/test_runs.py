@@ -573,6 +573,20 @@ def test_numbers_print_with_their_errors():
     assert str(carom.Number(1.5)) == "1.5" and float(carom.Number(1.5)) == 1.5
 
 
+def test_a_table_over_a_grid_is_a_dataset_over_its_axes(gas):
+    xarray = pytest.importorskip("xarray")
+    table = carom.run(gas, observables={"fields": {"cells": [4, 3]}}).observables["fields"].tables["fields"]
+    data = table.to_xarray()
+    assert isinstance(data, xarray.Dataset) and dict(data.sizes) == {"x": 4, "y": 3} and data["density"].dims == ("x", "y")
+    for k in range(12):
+        place = {"x": table["x"][k], "y": table["y"][k]}
+        assert float(data["density"].sel(place)) == table["density"][k] and data["density"].attrs["units"]
+    over_time = carom.Table({"time": [0.0, 1.0, 0.0, 1.0], "x": [1.0, 1.0, 0.0, 0.0], "n": [1, 2, 3, 4]}).to_xarray()
+    assert over_time["n"].dims == ("time", "x") and over_time["n"].values.tolist() == [[3, 1], [4, 2]]
+    scattered = carom.Table({"time": [0.0, 1.0, 0.0], "x": [1.0, 1.0, 0.0]}).to_xarray()
+    assert scattered["x"].dims == ("time",) and scattered["x"].values.tolist() == [1.0, 1.0, 0.0]
+
+
 def test_blocking_knows_the_error_of_independent_numbers():
     series = carom.Blocking()
     values = np.random.default_rng(1).normal(3.0, 2.0, 40_000)
