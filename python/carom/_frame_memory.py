@@ -11,6 +11,7 @@ from carom.frames import Frames, State, state_of_frame
 
 if TYPE_CHECKING:
     from carom.frames import Floats
+    from carom.scene import Scene
     from carom.simulation import Simulation
 
 
@@ -47,6 +48,8 @@ class FrameMemory:
         self.images = np.empty((count, disks, 2), np.int64) if positions and periodic else None
         self.spins = np.empty((count, spins)) if spins else None
         self.written = np.zeros(1, np.int64)
+        (x0, x1), (y0, y1) = simulation.scene.box
+        self.first_box = (x0, x1, y0, y1)
         self.first_radius = None if radii is None or not len(radii) else float(radii[0])
 
     def state(self) -> State:
@@ -66,8 +69,9 @@ class FrameMemory:
             self.shear_displacement[0],
         )
 
-    def frames(self, simulation: Simulation, radii: Floats, interrupted: bool) -> Frames:
-        """Returns the frames that have been written, in the same memory, which cannot be written from then on."""
+    def frames(self, simulation: Simulation, scene: Scene, radii: Floats, interrupted: bool) -> Frames:
+        """Returns the frames that have been written, in the same memory, which cannot be written from then on. `scene` and `radii` are those
+        of the first frame, to which scale and walls refer."""
         count = int(self.written[0])
 
         def done(array: Any) -> Any:
@@ -89,7 +93,7 @@ class FrameMemory:
             virial=done(self.virial),
             radii=radii,
             species=simulation.species,
-            scene=simulation.scene,
+            scene=scene,
             state_hash=simulation.state_hash,
             interrupted=interrupted,
         )

@@ -240,7 +240,8 @@ class Frames:
         return len(self.time)
 
     def __getitem__(self, k: int) -> State:
-        """Returns frame k, counted from the end where k is negative; parts of the arrays have many frames."""
+        """Returns frame k, counted from the end where k is negative; parts of the arrays have many frames. Where velocities were not kept
+        its disks are at rest."""
         k = frame_number(k, len(self))
 
         def row(array: Any) -> Any:
@@ -259,7 +260,8 @@ class Frames:
 
     @property
     def unwrapped(self) -> Floats:
-        """Positions that go on past periodic edges, shape (F, N, 2): for displacements."""
+        """Positions that go on past periodic edges, shape (F, N, 2): for displacements. Under shear they jump along x where a disk crosses
+        an edge where images slide."""
         if self._images is None:
             return self.positions
         (x0, x1), (y0, y1) = self.scene.box

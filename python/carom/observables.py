@@ -71,7 +71,7 @@ class Blocking:
         if found is None:
             return Number(math.nan, unit=unit, note="there are no samples")
         mean, error, inefficiency, lower_bound = found
-        time = None if step is None or inefficiency is None else 0.5 * (inefficiency - 1.0) * step
+        time = None if step is None or inefficiency is None else 0.5 * inefficiency * step
         return Number(mean, error, unit, time, "the error is a lower bound: the run is too short" if lower_bound else "")
 
     def __getstate__(self) -> bytes:

@@ -126,7 +126,7 @@ class Result:
 
 
 def _number(table: Mapping[str, Any], key: str) -> Number:
-    value, error, note = table.get(key), table.get(f"{key}_error"), str(table.get("note", ""))
+    value, error, note = table.get(key), table.get(f"{key}_error"), str(table.get(f"{key}_note") or table.get("note") or "")
     return Number(math.nan if value is None else float(value), None if error is None else float(error), note=note)
 
 

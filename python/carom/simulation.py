@@ -405,7 +405,7 @@ class Simulation:
         dt, until, stride = real(dt, "dt"), real(until, "until"), whole(stride, "stride", least=1)
         first, count = self._sample_range(dt, until, stride)
         memory = FrameMemory(self, count, bool(positions), bool(velocities), self.radii)
-        begin, radii = self.time, self.radii
+        begin, radii, scene = self.time, self.radii, self.scene
         reason: str | None = None
         with reporting(progress, "sample") as report_fraction:
             report_time = None if report_fraction is None else lambda now: report_fraction(_fraction(begin, now, until))
@@ -413,16 +413,18 @@ class Simulation:
             try:
                 reason = self._core.run_sampled(until, dt, first, stride, _NONE, **vars(memory), report=report_time)
             finally:
-                self._trajectory = memory.frames(self, radii, interrupted=reason is None)
+                self._trajectory = memory.frames(self, scene, radii, interrupted=reason is None)
         as_stop(reason, self.time)
         return self._trajectory
 
     def frames(self, dt: float, until: float, *, stride: int = 1) -> Iterator[State]:
-        """Iterates over the states that `sample()` returns, in constant memory."""
+        """Iterates over the states that `sample()` returns, in constant memory. The scale of each refers to `radii` at that time."""
         dt, until, stride = real(dt, "dt"), real(until, "until"), whole(stride, "stride", least=1)
         first, count = self._sample_range(dt, until, stride)
         memory = FrameMemory(self, 1, True, True)
         for k in range(first, first + count * stride, stride):
+            if k * dt < self.time - 1e-9 * dt:  # the caller has moved on meanwhile
+                continue
             memory.written[0] = 0
             self._moved()
             reason = self._core.run_sampled(until, dt, k, stride, 1, **vars(memory), report=None)

@@ -20,7 +20,7 @@ from carom._measured import measurements_of
 from carom._toml import value_text
 from carom.frames import State
 from carom.results import Measurement
-from carom.scene import Scene
+from carom.scene import Scene, _here
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -38,7 +38,7 @@ class Run:
         import json
         from pathlib import Path
 
-        self.directory = Path(path_text(directory, "directory"))
+        self.directory = Path(_here(path_text(directory, "directory")))  # which stays where it is when the working directory changes
         file = self.directory / "summary.json"
         try:
             self.summary: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
@@ -250,7 +250,7 @@ class StoredArray(NDArrayOperatorsMixin):
 
     def __init__(self, path: Path, name: str) -> None:
         self._path, self._name = path, name
-        self.shape: tuple[int, ...] = self._read(lambda dataset: (*dataset.shape[:2], min(2, dataset.shape[-1])) if dataset.ndim == 3 else dataset.shape)
+        self.ndim = len(self.shape)
 
     def _read(self, action: Any) -> Any:
         import h5py
@@ -262,7 +262,7 @@ class StoredArray(NDArrayOperatorsMixin):
             return action(dataset)
 
     def __getitem__(self, index: Any) -> npt.NDArray[np.float64]:
-        if len(self.shape) < 3:
+        if self.ndim < 3:
             return np.asarray(self._read(lambda dataset: dataset[index]))
         parts = _parts_of(index)
         if parts is not None and all(_is_simple(part) for part in parts):
@@ -280,11 +280,15 @@ class StoredArray(NDArrayOperatorsMixin):
         return np.ascontiguousarray(np.asarray(self._read(lambda dataset: dataset[index]))[..., :2])
 
     def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **options: Any) -> Any:
+        if any(isinstance(one, StoredArray) for one in options.get("out", ())):
+            return NotImplemented  # files are read, not written
         return getattr(ufunc, method)(*(one[:] if isinstance(one, StoredArray) else one for one in inputs), **options)
 
     @property
-    def ndim(self) -> int:
-        return len(self.shape)
+    def shape(self) -> tuple[int, ...]:
+        """The shape now: a run that is resumed gains frames."""
+        shape: tuple[int, ...] = self._read(lambda dataset: dataset.shape)
+        return (*shape[:2], min(2, shape[-1])) if len(shape) == 3 else shape
 
     @property
     def dtype(self) -> np.dtype[np.float64]:

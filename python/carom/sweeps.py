@@ -31,9 +31,13 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from carom._finished_runs import FinishedRuns
+    from carom.observables import Observable
 
 #: Numbers with a shorter name than in summary.json, as `carom.Result` has it.
 _SHORT = {"pressure.Z": "Z"}
+
+#: Columns of the tables that say how runs went.
+_OF_RUNS = ("seed", "state", "stopped", "state_hash", "failure", "finished", "failed")
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,6 +180,7 @@ def sweep(
 
         numbers = _arguments.list_of_words(numbers, "numbers")
         _files.require_numbers(scenes[0]._core, numbers)
+        _require_columns_of_their_own(numbers, keys)
     if executor is not None and workers is not None:
         raise ValueError("an executor has workers of its own; leave out one of the two")
     if workers is not None:
@@ -248,7 +253,7 @@ def _kept(
         return
     from carom._finished_runs import FinishedRuns
 
-    own = [f"{type(observable).__module__}.{type(observable).__qualname__}" for observable in settings["observables"]]
+    own = [_in_words_and_digest(observable) for observable in settings["observables"]]
     made = build()
     about = {
         "scene": scene.toml,
@@ -258,6 +263,17 @@ def _kept(
     }
     with FinishedRuns(out, about, [order.name(keys) for order in orders]) as kept:
         yield kept
+
+
+def _in_words_and_digest(observable: Observable) -> str:
+    """Returns the class of an observable and a checksum of what it holds: of other settings it measures something else."""
+    import hashlib
+
+    name = f"{type(observable).__module__}.{type(observable).__qualname__}"
+    try:
+        return f"{name} {hashlib.sha256(observable._save()).hexdigest()[:16]}"
+    except Exception:  # which pickle raises of many kinds
+        return name
 
 
 def _column(values: Sequence[Any]) -> npt.NDArray[Any]:
@@ -306,6 +322,15 @@ def _tables(
         columns[_SHORT.get(name, name)] = np.array([math.nan if mean is None else mean for mean, _ in averages])
         columns[f"{_SHORT.get(name, name)}_error"] = np.array([math.nan if error is None else error for _, error in averages])
     return Sweep(scene, keys, Table(columns, units, f"Means over {len(seeds)} seeds" if len(seeds) > 1 else "One seed"), runs)
+
+
+def _require_columns_of_their_own(numbers: Sequence[str], keys: Sequence[str]) -> None:
+    """Raises ValueError for a number whose column would take the place of another one."""
+    taken = dict.fromkeys(keys, "the values of that key") | dict.fromkeys(_OF_RUNS, "runs")
+    taken |= {f"{_SHORT.get(name, name)}_error": f"the standard error of {name} over seeds" for name in numbers}
+    for name in numbers:
+        if (what := taken.get(_SHORT.get(name, name))) is not None:
+            raise ValueError(f"numbers: the table has a column {_SHORT.get(name, name)} for {what}; leave {name} out, or ask for it in another sweep")
 
 
 def _numbers(found: Mapping[tuple[int, int], Found], keys: Sequence[str]) -> list[str]:

@@ -12,6 +12,7 @@
 #include <initializer_list>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace carom::python {
 
@@ -43,9 +44,9 @@ template <class Value>
 /// Writes the positions and velocities of the four walls to `room`, which has room for `numbers_of_walls`; none of them is a
 /// number where no wall moves.
 inline constexpr std::size_t numbers_of_walls = 8;
-inline void write_walls(const State& state, double* room) {
-  if (state.walls.empty()) std::fill_n(room, numbers_of_walls, std::numeric_limits<double>::quiet_NaN());
-  for (const WallState& wall : state.walls) *room++ = wall.position, *room++ = wall.velocity;
+inline void write_walls(const std::vector<WallState>& walls, double* room) {
+  if (walls.empty()) std::fill_n(room, numbers_of_walls, std::numeric_limits<double>::quiet_NaN());
+  for (const WallState& wall : walls) *room++ = wall.position, *room++ = wall.velocity;
 }
 
 /// Takes the lock of the interpreter, and lets pending signals and the caller's `report` raise what they like: KeyboardInterrupt

@@ -60,7 +60,7 @@ struct SampledStates {
     scale.push_back(state.scale);
     shear_displacement.push_back(state.shear_displacement);
     walls.resize(time.size() * numbers_of_walls);
-    write_walls(state, walls.data() + (time.size() - 1) * numbers_of_walls);
+    write_walls(state.walls, walls.data() + (time.size() - 1) * numbers_of_walls);
     virial.push_back(totals.virial);
     collisions.push_back(totals.pair);
     append(positions, state.positions);
@@ -209,7 +209,7 @@ class PythonRun {
     const nb::object frames = wishes_.frames ? nb::object(std::move(sampled_).arrays(disks)) : nb::none();
     return nb::borrow<AnyTuple>(nb::make_tuple(summary_json(outcome.report, runner_.provenance()),
                                                tuples_of(outcome.report.observables), outcome.report.stopped_disks, outcome.files,
-                                               frames, simulation_.state(), interrupted_, runner_.saved_now(), warnings_,
+                                               frames, runner_.state(), interrupted_, runner_.saved_now(), warnings_,
                                                disks_of(simulation_.whole_scene()).radius, simulation_.disks().species));
   }
 

@@ -6,17 +6,20 @@
 #include "python/parts.hpp"
 #include "scene/listed_disks.hpp"
 #include "scene/resolved_effects.hpp"
+#include "scene/walls.hpp"
 #include "simulation/sampling_times.hpp"
 #include "simulation/saved_simulation.hpp"
 
 #include <carom/simulation.hpp>
 
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <cstring>
@@ -60,8 +63,9 @@ struct FrameRoom {
   Room<std::uint64_t, nb::ndim<1>> collisions;
   Room<std::int64_t, nb::ndim<1>> written;  ///< one number: frames so far
 
-  /// Writes a frame. `grown` is the factor by which changes have made the radii larger since those that the scale is of.
-  void write(const State& state, const Totals& totals, double grown) const {
+  /// Writes a frame. `grown` is the factor by which changes have made the radii larger since those that the scale is of;
+  /// `settled` are walls where changes have stopped the last one that moved, else empty.
+  void write(const State& state, const Totals& totals, double grown, const std::vector<WallState>& settled) const {
     const auto frame = static_cast<std::size_t>(written.data()[0]);
     const auto copy = [&](const auto& matrix, const auto& room) {
       if (room) std::copy_n(matrix.data(), matrix.size(), room->data() + frame * static_cast<std::size_t>(matrix.size()));
@@ -69,7 +73,7 @@ struct FrameRoom {
     time.data()[frame] = state.time;
     scale.data()[frame] = state.scale * grown;
     shear_displacement.data()[frame] = state.shear_displacement;
-    write_walls(state, walls.data() + frame * numbers_of_walls);
+    write_walls(settled.empty() ? state.walls : settled, walls.data() + frame * numbers_of_walls);
     virial.data()[frame] = totals.virial;
     collisions.data()[frame] = totals.pair;
     copy(state.positions, positions);
@@ -392,13 +396,17 @@ void add_running(nb::class_<Running>& simulation) {
              const std::optional<Room<double, nb::shape<-1, -1>>>& spins, const Room<double, nb::shape<-1, 4, 2>>& walls,
              const Room<double, nb::ndim<1>>& scale, const Room<double, nb::ndim<1>>& shear_displacement,
              const Room<double, nb::ndim<1>>& virial, const Room<std::uint64_t, nb::ndim<1>>& collisions,
-             const Room<std::int64_t, nb::ndim<1>>& written, std::optional<double> first_radius, const nb::object& report) {
+             const Room<std::int64_t, nb::ndim<1>>& written, std::optional<double> first_radius,
+             const std::array<double, 4>& first_box, const nb::object& report) {
             const FrameRoom room{time,  positions,          velocities, images,     spins,  walls,
                                  scale, shear_displacement, virial,     collisions, written};
             const bool whole = positions || images || spins;
             return to_string(self.use_alone([&](Simulation& s) {
               const auto write = [&](std::uint64_t, const State& state, const Totals& totals) {
-                room.write(state, totals, first_radius ? s.disks().radius.front() / *first_radius : 1.0);
+                const Box& now = s.scene().box;
+                const Box before{{first_box[0], first_box[2]}, {first_box[1], first_box[3]}, now.boundary};
+                room.write(state, totals, first_radius ? s.disks().radius.front() / *first_radius : 1.0,
+                           have_settled(state, before, now) ? walls_at_rest(now) : std::vector<WallState>());
               };
               const SamplingGrid grid{.step = step, .sample = write, .velocities_alone = !whole};
               return s.run_sampled(until, grid, limits_of({}, report, s), {.first = first, .stride = stride, .most = most});
@@ -407,7 +415,7 @@ void add_running(nb::class_<Running>& simulation) {
           nb::arg("until"), nb::arg("step"), nb::arg("first"), nb::arg("stride"), nb::arg("most"), nb::arg("time"),
           nb::arg("positions").none(), nb::arg("velocities").none(), nb::arg("images").none(), nb::arg("spins").none(),
           nb::arg("walls"), nb::arg("scale"), nb::arg("shear_displacement"), nb::arg("virial"), nb::arg("collisions"),
-          nb::arg("written"), nb::arg("first_radius").none(), nb::arg("report").none())
+          nb::arg("written"), nb::arg("first_radius").none(), nb::arg("first_box"), nb::arg("report").none())
       .def(
           "step",
           [](Running& self, double until) -> std::optional<EventTuple> {

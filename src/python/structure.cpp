@@ -26,9 +26,11 @@ namespace carom::python {
 
 namespace {
 
-/// Returns the disks of a scene in a given state. Throws as start_from() does, and where one lies beyond a wall.
+/// Returns the disks of a scene in a given state, between the walls of that state. Throws as start_from() does, and where one
+/// lies beyond a wall.
 Start placed(const Scene& scene, const State& given) {
   Start start = start_from(scene, given);
+  if (given.walls.size() == numbers_of_walls / 2) start.state.walls = given.walls;  // a change may have moved them
   require_between_walls(scene, start.state);
   return start;
 }

@@ -66,6 +66,9 @@ class Runner {
   Runner(Simulation& simulation, const RunDirectory* directory, Provenance provenance, RunnerOptions options,
          const Checkpoint* from = nullptr);
 
+  /// Returns the state now, in the terms of the scene with which the run began: with the scale of radii, and where walls stand.
+  [[nodiscard]] State state() { return in_first_terms_(simulation_.state()); }
+
   /// Runs the scene's schedule, saves the run as the options say, and writes all files. Call it once. Throws OutputError where a
   /// file cannot be written; saved() then says whether the run can go on from a checkpoint.
   [[nodiscard]] RunnerOutcome run(const RunnerHooks& hooks = {});

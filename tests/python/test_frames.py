@@ -235,3 +235,26 @@ def test_a_time_before_the_start_has_no_frames(gas: carom.Scene) -> None:
     sim = carom.Simulation(gas)
     assert len(sim.sample(0.1, until=-1.0)) == len(list(sim.frames(0.1, until=-1.0))) == 0
     assert sim.play(-1.0).exact and sim.time == 0.0
+
+
+def test_frames_of_a_change_have_the_scene_of_the_first():
+    places = np.stack(np.meshgrid(*[np.arange(5) * 2 + 1.0] * 2), -1).reshape(-1, 2)
+    disks = {"radius": 0.5, "mass": 1, "positions": places, "velocities": np.random.default_rng(0).normal(size=places.shape)}
+    parts = {"disks": disks, "collision": {"rule": "specular"}, "run": {"time": 12.0}}
+    box = {"x": (0, 10), "y": (0, 10)}
+    moving = carom.Scene(
+        box={**box, "boundary": "walls"}, walls={"right": {"velocity": 0.3}}, changes=[{"time": 4.5, "set": ["walls.right.velocity=0"]}], **parts
+    )
+    frames = carom.Simulation(moving).sample(1.0, 9.0)
+    assert frames.scene.box[0] == (0.0, 10.0)
+    areas = [carom.voronoi(frames.scene, frames[k])["area"].sum() for k in range(len(frames))]
+    assert areas == pytest.approx([10.0 * (10.0 + 0.3 * min(time, 4.5)) for time in frames.time], rel=1e-9)
+    growing = carom.Scene(box={**box, "boundary": "periodic"}, growth={"rate": 0.05}, changes=[{"time": 4.5, "set": ["growth.rate=0"]}], **parts)
+    frames = carom.Simulation(growing).sample(1.0, 9.0)
+    assert carom.Simulation(frames.scene, state=frames[0]).radii[0] == frames.radii[0] == 0.5
+    sim, times = carom.Simulation(growing), []
+    for state in sim.frames(1.0, 9.0):
+        times.append(state.time)
+        if state.time == 2.0:
+            sim.run_until(4.7)
+    assert times == [0.0, 1.0, 2.0, 5.0, 6.0, 7.0, 8.0, 9.0]

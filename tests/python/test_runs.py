@@ -587,10 +587,32 @@ def test_a_table_over_a_grid_is_a_dataset_over_its_axes(gas):
     assert scattered["x"].dims == ("time",) and scattered["x"].values.tolist() == [1.0, 1.0, 0.0]
 
 
+def test_the_state_at_the_end_is_in_the_terms_of_the_scene(tmp_path):
+    """A change ends the growth, and another one stops a wall; the scene of a result is that of the start."""
+    places = np.stack(np.meshgrid(*[np.arange(5) * 2 + 1.0] * 2), -1).reshape(-1, 2)
+    disks = {"radius": 0.5, "mass": 1, "positions": places, "velocities": np.random.default_rng(0).normal(size=places.shape)}
+    parts = {"disks": disks, "collision": {"rule": "specular"}, "run": {"time": 8.0, "sample_every": 1.0}}
+    box = {"x": (0, 10), "y": (0, 10)}
+    growing = carom.Scene(box={**box, "boundary": "periodic"}, growth={"rate": 0.05}, changes=[{"time": 4.5, "set": ["growth.rate=0"]}], **parts)
+    walled = {**box, "boundary": "walls"}
+    moving = carom.Scene(box=walled, walls={"right": {"velocity": 0.3}}, changes=[{"time": 4.5, "set": ["walls.right.velocity=0"]}], **parts)
+    pushed = carom.Scene(box=walled, changes=[{"time": 0.5, "set": ["walls.right.velocity=-0.1"]}], **parts)
+    for name, scene in {"growing": growing, "moving": moving, "pushed": pushed}.items():
+        result = carom.run(scene, out=tmp_path / name, frames=True)
+        stored = carom.open_run(tmp_path / name).state()
+        assert result.state.scale == stored.scale == result.frames[-1].scale
+        assert [wall[0] for wall in result.state.walls] == [wall[0] for wall in stored.walls]
+    assert carom.run(growing).state.scale == pytest.approx(1.0 + 0.05 * 4.5, rel=1e-12)
+    run = carom.open_run(tmp_path / "pushed")
+    areas = [carom.voronoi(run.scene, frame)["area"].sum() for frame in run.frames]
+    assert areas == pytest.approx([100.0, *(100.0 - (k - 0.5) for k in range(1, 9))], rel=1e-9)
+
+
 def test_blocking_knows_the_error_of_independent_numbers():
     series = carom.Blocking()
     values = np.random.default_rng(1).normal(3.0, 2.0, 40_000)
     series.add(values)
+    assert series.estimate(step=0.5).integrated_correlation_time == pytest.approx(0.25, rel=0.1), "half a step"
     estimate = series.estimate()
     assert estimate.value == pytest.approx(values.mean(), rel=1e-12)
     # The standard error of 40,000 independent numbers is 2 / 200; its own relative error by blocks is a few per cent.

@@ -337,3 +337,37 @@ def test_what_progress_raises_stops_the_sweep(gas, tmp_path):
     with pytest.raises(RuntimeError, match="it broke"):
         carom.sweep(gas, POINTS, seeds=1, progress=broken, out=tmp_path)
     assert len((tmp_path / "runs.jsonl").read_text().splitlines()) >= 2
+
+
+def test_numbers_that_would_take_the_place_of_other_columns_are_refused(gas):
+    name = "observables.pressure.P_xx"
+    scene = gas.set({"observe.pressure": True})
+    for numbers, sentence in [
+        ([name, f"{name}_error"], "for the standard error of observables.pressure.P_xx over seeds; leave observables.pressure.P_xx_error out"),
+        (["time"], "the table has a column time for the values of that key"),
+    ]:
+        with pytest.raises(ValueError, match=sentence):
+            carom.sweep(scene, {"time": [1.0, 2.0]}, seeds=[1], numbers=numbers)
+
+
+class Scaled(carom.Observable):
+    name, step = "scaled", 0.5
+
+    def __init__(self, factor):
+        self.factor = factor
+
+    def sample(self, state, collisions, virial):
+        self.sum = getattr(self, "sum", 0.0) + self.factor * (state.velocities**2).sum()
+
+    def finish(self, time, collisions, virial):
+        return {"sum": self.sum}
+
+
+def test_kept_runs_are_those_of_the_same_observables(gas, tmp_path):
+    def swept(factor):
+        return carom.sweep(gas, {"radius": [0.3]}, seeds=[1], observables=[Scaled(factor)], out=tmp_path / "kept")
+
+    first = swept(1.0).table["observables.scaled.sum"][0]
+    assert swept(1.0).table["observables.scaled.sum"][0] == first
+    with pytest.raises(carom.OutputError):
+        swept(10.0)
