@@ -19,7 +19,6 @@
 #include <limits>
 #include <numeric>
 #include <optional>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -114,7 +113,7 @@ class Growing {
     // A disk wedged between obstacles and walls, with no other disk to press on, would fly to and fro ever faster.
     const std::uint64_t stretch = wedged_after + wedged_after_per_disk * disks_.count();
     const auto goes_on = [&] { return !engine->ended() && !engine->is_stalled(); };
-    for (std::uint64_t pairs = 0; goes_on();) {
+    for (std::uint64_t before = 0; goes_on(); before = engine->counts().pair) {
       for (std::uint64_t left = stretch; left > 0 && goes_on();) {  // in pieces by the clock, which must not show
         const std::uint64_t events = std::min(watch_.passes(), left);
         engine->run_until(forever, no_limit, events);
@@ -122,7 +121,7 @@ class Growing {
         done_ = 1.0 - (to_grow - engine->now().high) / whole_;
         watch_.pass(events);
       }
-      if (std::exchange(pairs, engine->counts().pair) == pairs) break;
+      if (engine->counts().pair == before) break;
     }
     state = engine->state();
     state.time = 0.0;
