@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -51,13 +52,20 @@ bool says_drift(const std::string& note) { return says_not_in_equilibrium(note) 
 
 }  // namespace
 
+/// Whether gravity does work on and on: along a periodic axis.
+bool falls_for_ever(const Scene& scene) {
+  const Eigen::Vector2d g = scene.effects.acceleration();
+  return (scene.box.periodic(0) && g[0] != 0.0) || (scene.box.periodic(1) && g[1] != 0.0);
+}
+
 /// Whether energy, room or the size of disks changes in one direction for the whole of a run: disks cool and nothing heats them,
 /// they grow, or a wall moves on and on.
-bool changes_throughout(const Effects& effects) {
+bool changes_throughout(const Scene& scene) {
+  const Effects& effects = scene.effects;
   const auto heats = [](const WallProperties& wall) { return wall.temperature || wall.vibration || wall.oscillation; };
   const auto moves_on = [](const WallProperties& wall) { return wall.velocity.value_or(0.0) != 0.0; };
-  const bool heated = effects.thermostat || effects.brownian || effects.tumbling || effects.shear ||
-                      !effects.acceleration().isZero(0.0) || std::ranges::any_of(effects.walls, heats);
+  const bool heated = effects.thermostat || effects.brownian || effects.tumbling || effects.shear || falls_for_ever(scene) ||
+                      std::ranges::any_of(effects.walls, heats);
   const bool cools = (effects.dissipate() || effects.drag_rate() > 0.0) && !heated;
   return cools || effects.growth_rate() > 0.0 || std::ranges::any_of(effects.walls, moves_on);
 }
@@ -80,9 +88,8 @@ void note_drifts(std::vector<Measurement>& measured, const Scene& scene) {
   const auto is_chance = [&](const Halves& halves, std::size_t compared) {
     return halves.probability * static_cast<double>(compared) >= share * false_alarms;
   };
-  const bool is_steady_expected =
-      !effects.dissipate() && !(effects.drag_rate() > 0.0) && !(effects.growth_rate() > 0.0) && scene.changes.empty();
-  const bool changing = changes_throughout(effects);
+  const bool changing = changes_throughout(scene);
+  const bool is_steady_expected = !effects.dissipate() && !(effects.drag_rate() > 0.0) && scene.changes.empty() && !changing;
   for (Measurement& one : measured) {
     for (Scalar& scalar : one.scalars) {
       if (changing) say_change(scalar);

@@ -198,6 +198,7 @@ bool Observation::empty() const { return driver_->group().empty(); }
 double Observation::reference_temperature() const { return driver_->group().run().temperature; }
 std::vector<double> Observation::steps() const { return driver_->group().steps(); }
 void Observation::save(std::ostream& out) const {
+  driver_->group().require_all_added();
   driver_->finish();
   driver_->group().save(out);
 }

@@ -405,6 +405,7 @@ TEST(DriftOfARun, ACorrelatedNumberOfAChangeIsNotToBeMeasuredByALongerRun) {
   heated = falling = vibrated = cooling;
   heated.effects.thermostat = Thermostat{1.0, 1.0};
   falling.effects.gravity = Gravity{{0.0, -1.0}};
+  falling.box.boundary = {Boundary::walls, Boundary::periodic};
   vibrated.effects.walls[2].vibration = 1.0;
   for (const Scene& scene : {Scene{}, heated, falling, vibrated}) EXPECT_EQ(note_in(scene), lower_bound);
 }
