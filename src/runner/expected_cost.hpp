@@ -51,12 +51,12 @@ class Trial {
 
 /// The memory that a run of many disks takes by the table of effects; fixed shapes and bonds add to it.
 struct ExpectedMemory {
-  double bytes_per_disk = 0.0;
-  double bytes = 0.0;
-  std::optional<double> free;  ///< bytes that the system can give; empty where it does not say
+  double bytes_per_disk = 0.0;  ///< of the engine
+  double bytes = 0.0;           ///< of all disks at the start, when they take the most
+  std::optional<double> free;   ///< bytes that the system can give; empty where it does not say
 
   [[nodiscard]] bool is_too_much() const { return free && bytes > *free; }
-  /// Returns "some 215 bytes per disk, 22 GB in all; 24 GB are free".
+  /// Returns "some 215 bytes per disk, and 35 GB in all at the start; 24 GB are free".
   [[nodiscard]] std::string words() const;
 };
 [[nodiscard]] ExpectedMemory expected_memory(const Scene& scene);

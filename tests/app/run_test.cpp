@@ -74,7 +74,7 @@ TEST_F(RunCommand, MoreDisksThanThereIsMemoryForAreRefusedBeforeTheyAreDrawn) {
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.err,
               AllOf(StartsWith("carom: gas.toml: there is not enough memory for 2,000,000,000 disks: they need some 215 "
-                               "bytes per disk, 430 GB in all; "),
+                               "bytes per disk, and 700 GB in all at the start; "),
                     HasSubstr(" are free; fewer disks need less")));
   EXPECT_FALSE(fs::exists(file("gas")));
 }
