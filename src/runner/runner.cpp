@@ -7,8 +7,11 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <iterator>
 #include <sstream>
+#include <string_view>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -42,6 +45,7 @@ RunnerOutcome Runner::run(const RunnerHooks& hooks) {
   if (options_.verify_every > 0) outcome.report.verification = {options_.verify_every, result.verified, result.faults};
   if (start_ && hooks.complete && result.stopped != StopReason::interrupted) hooks.complete(outcome.report, *start_);
   if (writer_) outcome.files = writer_->finish(outcome.report);
+  if (end_unsaved_) remove_checkpoints();
   if (saved_) outcome.files.emplace_back(checkpoint_name);
   if (options_.report && directory_ != nullptr) write_report(outcome);
   return outcome;
@@ -142,6 +146,7 @@ void Runner::save(const SavingMoment& moment, const RunnerHooks& hooks) {
     told_unsaved_ = false;
   } catch (const OutputError& error) {  // the run may still come to its end
     saved_last_ = false;
+    end_unsaved_ = moment.ended && !stopped_;
     const char* const what_follows = !moment.ended ? "the run goes on unsaved"
                                      : !stopped_   ? "the run is complete, and cannot be extended from here"
                                      : saved()     ? "the run can go on from where it was saved before, and not from here"
@@ -149,6 +154,14 @@ void Runner::save(const SavingMoment& moment, const RunnerHooks& hooks) {
     if (hooks.warn && (moment.ended || !std::exchange(told_unsaved_, true)))
       hooks.warn(fmt::format("{}; {}", error.what(), what_follows));
   }
+}
+
+/// An older checkpoint would lead to the complete results once more, and replace them.
+void Runner::remove_checkpoints() {
+  std::error_code ignored;
+  for (const std::string_view name : {checkpoint_name, previous_checkpoint_name})
+    std::filesystem::remove(directory_->final_name(name), ignored);
+  saved_ = false;
 }
 
 /// The files come last: what is wrong with anything else is found before they are cut back.

@@ -89,6 +89,7 @@ class Runner {
   void read(const Checkpoint& from);
   [[nodiscard]] std::string scene_with_steps() const;
   void write_report(RunnerOutcome& outcome) const;
+  void remove_checkpoints();
 
   Simulation& simulation_;
   const Scene& scene_;
@@ -108,6 +109,7 @@ class Runner {
   bool stopped_ = false;
   bool saved_ = false;
   bool saved_last_ = false;    ///< whether the last attempt to save it went well
+  bool end_unsaved_ = false;   ///< the run has come to its end, and that could not be saved
   bool told_unsaved_ = false;  ///< since the last checkpoint that could be written
   bool extended_ = false;      ///< the run had come to its end before
 };
