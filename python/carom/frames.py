@@ -289,7 +289,7 @@ class Frames:
         `shear_displacement`, shape (F,), how far images above are from those below where the box is sheared.
         """
         place = path_text(path, "path")
-        if (ending := splitext(place)[1]) not in ("", ".npz"):
+        if (ending := splitext(place)[1]) != ".npz" and ending[1:2].isalpha():
             raise ValueError(f"{place}: frames are written in numpy's format; name a file that ends in .npz, not in {ending}")
         arrays = {name: getattr(self, name) for name in ("time", "scale", "collisions", "virial", "radii", "species")} | self._sampled()
         try:

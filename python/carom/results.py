@@ -37,7 +37,7 @@ def with_error(value: float, error: float) -> str:
         return " ± ".join(f"{float(Fraction(number) / Fraction(10) ** power):.{digits}f}e{power:+03}" for number in (value, error))
     if last > 0:
         scale = 10.0**last
-        return f"{round(value / scale) * scale:.0f} ± {round(error / scale) * scale:.0f}"
+        return f"{round(value / scale) * scale + 0.0:.0f} ± {round(error / scale) * scale:.0f}"
     digits = min(-last, 15)
     return f"{value:.{digits}f} ± {error:.{digits}f}"
 
@@ -162,7 +162,7 @@ class Table(Mapping[str, npt.NDArray[Any]]):
                 break
             places = [np.unique(self[name], return_inverse=True) for name in names]
             sizes = [len(numbers) for numbers, _ in places]
-            if min(sizes) < 2 or math.prod(sizes) != rows:
+            if sizes[0] == rows or math.prod(sizes) != rows:
                 continue
             row = np.ravel_multi_index(tuple(inverse for _, inverse in places), sizes)
             if len(np.unique(row)) == rows:

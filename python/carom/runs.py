@@ -157,6 +157,11 @@ def _with_observables(scene: Scene, observables: Observables | None) -> tuple[Sc
     return given, _own(listed, given._core.observables)
 
 
+def _is_chosen(observable: Observable, attribute: str) -> bool:
+    """Returns whether an observable or its class has an attribute of its own in place of the one that all have."""
+    return attribute in vars(observable) or any(attribute in vars(c) for c in type(observable).__mro__ if c not in (Observable, object))
+
+
 def _own(observables: Iterable[Any], taken: Iterable[str] = ()) -> list[Observable]:
     """Returns the observables as a list. Raises TypeError or ValueError for what is none, and for two of one name; `taken` are the names
     of the scene's."""
@@ -175,9 +180,9 @@ def _own(observables: Iterable[Any], taken: Iterable[str] = ()) -> list[Observab
         names.add(name)
         if not 0.0 <= real(observable.step, f"the step of {name}") < math.inf:
             raise ValueError(f"the step of {name} is {shown(observable.step)}; give a time, or 0 where it takes no samples")
-        if observable.step == 0 and type(observable).sample is not Observable.sample:
+        if type(observable).sample is not Observable.sample and not _is_chosen(observable, "step"):
             raise ValueError(f"{name} has a sample(), and its step is 0, so that it would never be called; give it a step, the time between two samples")
-        if not observable.follows_collisions and type(observable).collisions is not Observable.collisions:
+        if type(observable).collisions is not Observable.collisions and not _is_chosen(observable, "follows_collisions"):
             raise ValueError(f"{name} has collisions(), and follows_collisions is False, so that it would never be called; set it to True")
         for attribute in ("needs_positions", "follows_collisions"):
             value = getattr(observable, attribute)

@@ -240,8 +240,10 @@ def _is_simple(part: Any) -> bool:
     return isinstance(part, (int, np.integer)) and not isinstance(part, bool)
 
 
-def _is_whole(part: Any) -> bool:
-    return isinstance(part, slice) and part == slice(None)
+def _turned_round(backward: slice, length: int) -> slice:
+    """Returns the slice of the same numbers in rising order."""
+    numbers = range(length)[backward][::-1]
+    return slice(numbers.start, numbers.stop, numbers.step) if len(numbers) > 0 else slice(0, 0)
 
 
 class StoredArray(NDArrayOperatorsMixin):
@@ -268,19 +270,26 @@ class StoredArray(NDArrayOperatorsMixin):
         if parts is not None and all(_is_simple(part) for part in parts):
             frames, disks, axis = parts
             return self._planes((frames, disks))[..., axis]
-        if parts is not None and np.ndim(parts[0]) == 1 and all(_is_whole(part) for part in parts[1:]):  # frames in any order
-            rows, places = np.unique(np.arange(self.shape[0])[parts[0]], return_inverse=True)
-            if len(rows) > 0:
-                return self._planes((rows,))[places]
-        whole = self._planes((slice(None),))
-        return np.asarray(whole[index])
+        if parts is None or isinstance(parts[0], bool) or np.ndim(0 if isinstance(parts[0], slice) else parts[0]) > 1:
+            return np.asarray(self._planes((slice(None),))[index])
+        frames, *rest = parts
+        if isinstance(frames, slice):
+            forward = frames if _is_simple(frames) else _turned_round(frames, len(self))
+            read = self._planes((forward,))
+            return np.asarray((read if forward is frames else read[::-1])[(slice(None), *rest)])
+        wanted = np.arange(len(self))[frames]
+        rows, places = np.unique(wanted, return_inverse=True)
+        read = self._planes((rows,)) if len(rows) > 0 else np.empty((0, *self.shape[1:]))
+        return np.asarray(read[(0 if np.ndim(wanted) == 0 else places, *rest)])
 
     def _planes(self, index: tuple[Any, ...]) -> npt.NDArray[np.float64]:
         """Reads frames, or disks of frames. H5MD has three coordinates; a box has two."""
         return np.ascontiguousarray(np.asarray(self._read(lambda dataset: dataset[index]))[..., :2])
 
+    __hash__ = object.__hash__
+
     def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **options: Any) -> Any:
-        if any(isinstance(one, StoredArray) for one in options.get("out", ())):
+        if method == "at" or any(isinstance(one, StoredArray) for one in options.get("out", ())):
             return NotImplemented  # files are read, not written
         return getattr(ufunc, method)(*(one[:] if isinstance(one, StoredArray) else one for one in inputs), **options)
 

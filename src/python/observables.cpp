@@ -146,6 +146,8 @@ void PythonObservable::save_to(std::ostream& out) {
     out.write(bytes.c_str(), static_cast<std::streamsize>(bytes.size()));
   } catch (const nb::python_error& error) {
     refuse(fmt::format("{}: {}", nb::cast<std::string>(error.type().attr("__name__")), nb::str(error.value()).c_str()));
+  } catch (const std::bad_cast&) {
+    refuse("what it has saved is not of bytes");
   }
 }
 

@@ -23,6 +23,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <csignal>
 #include <cstdint>
 #include <exception>
 #include <memory>
@@ -162,7 +163,10 @@ void call_on_thread(nb::object work, const nb::object& raised) {
       // Python must not end while the thread is in it.
       nb::module_::import_("atexit").attr("register")(nb::cpp_function([ended] {
         while (!waited_for(*ended))
-          if (PyErr_CheckSignals() != 0) throw nb::python_error();
+          if (PyErr_CheckSignals() != 0) {  // a third Ctrl-C
+            std::signal(SIGINT, SIG_DFL);
+            std::raise(SIGINT);
+          }
       }));
       throw error;
     }

@@ -85,7 +85,8 @@ std::string with_error(double value, double error) {
   }
   if (last > 0) {
     const double unit = std::pow(10.0, last);
-    return fmt::format("{:.0f} ± {:.0f}", std::nearbyint(value / unit) * unit, std::nearbyint(error / unit) * unit);
+    const double rounded = std::nearbyint(value / unit) * unit + 0.0;  // never -0
+    return fmt::format("{:.0f} ± {:.0f}", rounded, std::nearbyint(error / unit) * unit);
   }
   const int decimals = std::min(-last, 15);
   return fmt::format("{:.{}f} ± {:.{}f}", value, decimals, error, decimals);

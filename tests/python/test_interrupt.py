@@ -93,14 +93,14 @@ class Slow(carom.Observable):
     step = 0.5
     def sample(self, *arguments):
         print("begun", flush=True)
-        ends = time.monotonic() + 2
+        ends = time.monotonic() + 3
         while time.monotonic() < ends: pass
 carom.run(carom.Scene.preset("gas"), observables=[Slow()])
 """
     script = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     assert script.stdout is not None and script.stdout.readline() == "begun\n"
     script.send_signal(signal.SIGINT)
-    time.sleep(0.3)  # two at once are one
+    time.sleep(1.0)  # two at once are one
     script.send_signal(signal.SIGINT)
     _, error = script.communicate(timeout=30)
     assert script.returncode == -signal.SIGINT

@@ -263,10 +263,10 @@ def test_a_run_goes_on_from_where_it_was_saved_before_an_observable_failed(gas, 
     expected = carom.run(scene, observables=[Sum()]).observables["sum"]["total"]
     Sum.fails = True
     with pytest.raises(RuntimeError, match="it broke") as caught:
-        carom.run(scene, observables=[Sum()], out=tmp_path / "run", checkpoint_every="5000 collisions")
+        carom.run(scene.set({"run.time": 1e6}), observables=[Sum()], out=tmp_path / "run", checkpoint_every="5000 collisions")
     assert "the run can go on from where it was saved before, and not from here" in caught.value.__notes__[0]
     Sum.fails = False
-    assert carom.resume(tmp_path / "run", observables=[Sum()]).observables["sum"]["total"] == expected
+    assert carom.resume(tmp_path / "run", time=300.0, observables=[Sum()]).observables["sum"]["total"] == expected
 
 
 def test_an_observable_that_cannot_be_pickled_loses_no_files(gas, tmp_path):
@@ -279,6 +279,19 @@ def test_an_observable_that_cannot_be_pickled_loses_no_files(gas, tmp_path):
     with pytest.warns(UserWarning, match="the observable locked cannot be saved: TypeError: cannot pickle"):
         result = carom.run(gas, observables=[Locked()], out=tmp_path / "run", checkpoint_every="1 collisions")
     assert carom.open_run(tmp_path / "run").summary["state_hash"] == result.state_hash
+
+
+def test_a_complete_run_that_could_not_be_saved_keeps_no_older_checkpoint(gas, tmp_path):
+    class LockedLater(Samples):
+        def sample(self, state, collisions, virial):
+            if state.time > 50.0:
+                self.lock = threading.Lock()
+
+    with pytest.warns(UserWarning, match="the run is complete, and cannot be extended from here"):
+        carom.run(gas.set({"run.time": 300.0}), observables=[LockedLater("later")], out=tmp_path / "run", checkpoint_every="500 collisions")
+    assert carom.open_run(tmp_path / "run").summary["stopped"] == "time"
+    with pytest.raises(carom.OutputError, match="no checkpoint"):
+        carom.resume(tmp_path / "run", observables=[Samples("later")])
 
 
 @pytest.mark.parametrize(
@@ -450,6 +463,10 @@ def test_arrays_of_a_stored_run_are_indexed_as_numpys_are(gas, tmp_path):
         assert found.shape == expected.shape and np.array_equal(found, expected), index
     assert refused < len(indices) // 3
     assert np.array_equal(stored**2 - 1, whole**2 - 1) and np.mean(stored) == np.mean(whole)
+    with pytest.raises(TypeError):
+        stored += 1.0
+    with pytest.raises(TypeError):
+        np.add.at(stored, 0, 1.0)
     assert np.array_equal(np.hypot(*np.moveaxis(stored, 2, 0)), np.hypot(*np.moveaxis(whole, 2, 0)))
 
 

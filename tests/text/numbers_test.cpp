@@ -23,6 +23,7 @@ TEST(Numbers, HaveTheSecondDigitOfTheirErrorInAnyUnit) {
   EXPECT_EQ(with_error(-2.5, 0.0996), "-2.50 ± 0.10");
   EXPECT_EQ(with_error(1234567.0, 123.0), "1234570 ± 120");
   EXPECT_EQ(with_error(-5615.0, 13223.0), "-6000 ± 13000");
+  EXPECT_EQ(with_error(-300.0, 13223.0), "0 ± 13000");
   EXPECT_EQ(with_error(9.96e7, 1e3), "9.96000e+07 ± 0.00010e+07");
   EXPECT_EQ(with_error(9.999999e7, 1e3), "1.000000e+08 ± 0.000010e+08");
   EXPECT_EQ(with_error(4.19904e-21, 5.02e-23), "4.199e-21 ± 0.050e-21");

@@ -35,8 +35,8 @@ class RunReader {
   /// Returns names and values of the facts about this run, for the foot of a page.
   [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& facts() const { return facts_; }
 
-  [[nodiscard]] double end() const { return end_; }                 ///< the time that the run reached
-  [[nodiscard]] std::optional<double> Z() const { return Z_; }      ///< Z of the whole run, if it has one
+  [[nodiscard]] double end() const { return end_; }             ///< the time that the run reached
+  [[nodiscard]] std::optional<double> Z() const { return Z_; }  ///< Z of the whole run, if it has one
   /// The collisions of pairs in the whole run; 0 for a trajectory without its run directory.
   [[nodiscard]] std::uint64_t pair_collisions() const { return pair_collisions_; }
   [[nodiscard]] std::uint64_t samples() const { return samples_; }  ///< 0 where it kept events alone
