@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
+from carom import _core
 from carom._arguments import shown
 
 if TYPE_CHECKING:
@@ -26,25 +26,7 @@ _SHOWN = 16
 def with_error(value: float, error: float) -> str:
     """Returns a value with its standard error, both to the error's second digit: "2.0602 ± 0.0010", or "4.199e-21 ± 0.050e-21" where
     both are far from 1."""
-    value, error = float(value), float(error)
-    if not (math.isfinite(value) and math.isfinite(error) and error > 0):
-        return f"{value:.6g}"
-    last = _power_of_ten(error) - 1
-    larger = max(abs(value), error)
-    if not 1e-4 <= larger < 1e7:
-        power = _power_of_ten(larger, min(max(_power_of_ten(larger, 17) - last, 0), 17))
-        digits = min(max(power - last, 0), 15)
-        return " ± ".join(f"{float(Fraction(number) / Fraction(10) ** power):.{digits}f}e{power:+03}" for number in (value, error))
-    if last > 0:
-        scale = 10.0**last
-        return f"{round(value / scale) * scale + 0.0:.0f} ± {round(error / scale) * scale:.0f}"
-    digits = min(-last, 15)
-    return f"{value:.{digits}f} ± {error:.{digits}f}"
-
-
-def _power_of_ten(number: float, decimals: int = 1) -> int:
-    """Returns the power of ten of a number as it is printed with one and so many digits: of 0.0996 it is that of 0.10 with two."""
-    return int(f"{number:.{decimals}e}".partition("e")[2])
+    return _core.with_error(float(value), float(error))
 
 
 @dataclass(frozen=True)

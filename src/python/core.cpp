@@ -53,6 +53,7 @@ NB_MODULE(_core, module) {
                                               {"instructions", name_of(chosen_instructions())}};
   });
   module.def("seconds_in", &seconds_in, nb::arg("text"));
+  module.def("with_error", &with_error, nb::arg("value"), nb::arg("error"));
   add_scene(module);
   add_state(module);
   add_simulation(module);
