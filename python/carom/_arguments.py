@@ -77,6 +77,14 @@ def path_text(value: Any, name: str) -> str:
         raise TypeError(f"{name} is {shown(value)}; give a path") from None
 
 
+def absolute(place: str) -> str:
+    """Returns the path that stays where it is when the working directory changes; the same one where somebody has removed that."""
+    try:
+        return os.path.abspath(place)
+    except FileNotFoundError:
+        return place
+
+
 def list_of_words(values: Any, name: str) -> list[str]:
     """Returns strings or paths as a list; a single string may stand for itself. Raises TypeError for what are none."""
     if not isinstance(values, Iterable):

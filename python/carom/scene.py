@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from os import PathLike
-from os.path import abspath, dirname
+from os.path import dirname
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeGuard, Union, cast
 
 import numpy as np
 
 from carom import _core
-from carom._arguments import list_of_words, numbers, pairs, path_text, shown, words
+from carom._arguments import absolute, list_of_words, numbers, pairs, path_text, shown, words
 from carom._errors import SceneError
 from carom._toml import scene_text, value_text
 
@@ -81,7 +81,7 @@ class Scene:
         if mapping is not None and not isinstance(mapping, Mapping):
             raise TypeError(f"a scene is {shown(mapping)}; give a mapping, or the path of a scene file to Scene.load()")
         self._core = _parsed(scene_text({**(mapping or {}), **tables}), _MADE, [], ".")
-        self._directory = _here()
+        self._directory = absolute(".")
         self._toml: str | None = None
 
     @classmethod
@@ -94,18 +94,18 @@ class Scene:
     def load(cls, path: str | PathLike[str], overrides: list[str] | None = None) -> Scene:
         """Reads a scene file. `overrides` are those of the program's --set, such as "run.time=2"."""
         place = path_text(path, "path")
-        return cls._of(_core.Scene.load(place, list_of_words(overrides or [], "overrides")), dirname(abspath(place)))
+        return cls._of(_core.Scene.load(place, list_of_words(overrides or [], "overrides")), dirname(absolute(place)))
 
     @classmethod
     def parse(cls, text: str, directory: str | PathLike[str] = ".") -> Scene:
         """Reads a scene from TOML text. Start files that it names are searched in `directory`."""
         place = path_text(directory, "directory")
-        return cls._of(_core.Scene.parse(words(text, "the text"), _MADE, [], place), _here(place))
+        return cls._of(_core.Scene.parse(words(text, "the text"), _MADE, [], place), absolute(place))
 
     @classmethod
     def preset(cls, name: str) -> Scene:
         """Returns one of the scenes that come with carom, such as "box"; `carom.presets()` lists them."""
-        return cls._of(_core.Scene.parse(_core.preset(words(name, "the name")), f"{name}.toml", [], "."), _here())
+        return cls._of(_core.Scene.parse(_core.preset(words(name, "the name")), f"{name}.toml", [], "."), absolute("."))
 
     def set(self, changes: Mapping[str, Any]) -> Scene:
         """Returns the scene with other values for some keys.
@@ -238,13 +238,6 @@ class Scene:
 
     def __reduce__(self) -> tuple[Any, ...]:
         return scene_of_parts, self.parts()
-
-
-def _here(place: str = ".") -> str:
-    try:
-        return abspath(place)
-    except FileNotFoundError:  # somebody has removed the directory
-        return place
 
 
 def _parsed(text: str, source: str, overrides: list[str], directory: str) -> _core.Scene:

@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 from numpy.lib.mixins import NDArrayOperatorsMixin
 
-from carom._arguments import frame_number, list_of_words, path_text, whole
+from carom._arguments import absolute, frame_number, list_of_words, path_text, whole
 from carom._errors import OutputError
 from carom._events import events_in
 from carom._hdf5 import hdf5
@@ -20,7 +20,7 @@ from carom._measured import measurements_of
 from carom._toml import value_text
 from carom.frames import State
 from carom.results import Measurement
-from carom.scene import Scene, _here
+from carom.scene import Scene
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -38,7 +38,7 @@ class Run:
         import json
         from pathlib import Path
 
-        self.directory = Path(_here(path_text(directory, "directory")))  # which stays where it is when the working directory changes
+        self.directory = Path(absolute(path_text(directory, "directory")))
         file = self.directory / "summary.json"
         try:
             self.summary: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
@@ -270,7 +270,7 @@ class StoredArray(NDArrayOperatorsMixin):
         if parts is not None and all(_is_simple(part) for part in parts):
             frames, disks, axis = parts
             return self._planes((frames, disks))[..., axis]
-        if parts is None or isinstance(parts[0], bool) or np.ndim(0 if isinstance(parts[0], slice) else parts[0]) > 1:
+        if parts is None or isinstance(parts[0], (bool, np.bool_)) or np.ndim(0 if isinstance(parts[0], slice) else parts[0]) > 1:
             return np.asarray(self._planes((slice(None),))[index])
         frames, *rest = parts
         if isinstance(frames, slice):
