@@ -45,10 +45,7 @@ RunDirectory::RunDirectory(fs::path path, bool force, std::span<const std::strin
     : path_(std::move(path)), products_(products), otherwise_(another_place) {
   if (path_.empty()) throw OutputError("the output directory has an empty name; name one with --out");
   try {
-    create();
-    lock(holder);
-    check_for_results(force);
-    check_writable();
+    take(force, holder);
     if (force) {
       for (const std::string_view product : products_) {
         for (const fs::path& old : {final_name(product), partial_name(product)}) {
@@ -69,10 +66,14 @@ void RunDirectory::require_free(const fs::path& path, bool force) {
   if (!fs::exists(path, error)) return;
   RunDirectory directory(path);
   directory.otherwise_ = another_place;
-  directory.create();
-  directory.lock(LockHolder::process);
-  directory.check_for_results(force);
-  directory.check_writable();
+  directory.take(force, LockHolder::process);
+}
+
+void RunDirectory::take(bool force, LockHolder holder) {
+  create();
+  lock(holder);
+  check_for_results(force);
+  check_writable();
 }
 
 RunDirectory RunDirectory::reopen(fs::path path) {

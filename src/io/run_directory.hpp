@@ -91,6 +91,8 @@ class RunDirectory {
   explicit RunDirectory(std::filesystem::path path) : path_(std::move(path)), products_(run_products) {}
   /// Returns the error for a place where a run cannot begin or be continued.
   [[nodiscard]] OutputError refusal(const std::filesystem::path& path, std::string_view action, int error_number) const;
+  /// Makes the directory this object's where nothing is in the way, and changes nothing in it.
+  void take(bool force, LockHolder holder);
   void create();
   void lock(LockHolder holder);
   void check_for_results(bool force) const;
