@@ -52,9 +52,8 @@ std::string what_was_observed(const RunReport& report) {
   for (const Measurement& measured : report.observables) {
     const auto known = std::find_if(measured.scalars.begin(), measured.scalars.end(),
                                     [](const Scalar& scalar) { return scalar.value.has_value(); });
-    std::string words = !measured.tables.empty() ? fmt::format("in observe_{}.csv", measured.tables.front().name)
-                        : !measured.note.empty() || measured.scalars.empty() ? measured.note
-                                                                             : measured.scalars.front().note;
+    std::string words = measured.tables.empty() ? measured.note : fmt::format("in observe_{}.csv", measured.tables.front().name);
+    if (words.empty() && !measured.scalars.empty()) words = measured.scalars.front().note;
     if (known != measured.scalars.end()) {
       words = known->name + " " + number_words(*known);
       if (!known->unit.empty()) words += fmt::format(" ({})", unit_words(known->unit));

@@ -50,8 +50,6 @@ std::string place_of(const ColumnHalves& column, const Table& table) {
 
 bool says_drift(const std::string& note) { return says_not_in_equilibrium(note) || note.find(not_steady) != std::string::npos; }
 
-}  // namespace
-
 /// Whether gravity does work on and on: along a periodic axis.
 bool falls_for_ever(const Scene& scene) {
   const Eigen::Vector2d g = scene.effects.acceleration();
@@ -75,6 +73,8 @@ void say_change(Scalar& scalar) {
   if (const std::size_t at = scalar.note.find(too_short); at != std::string::npos)
     scalar.note.replace(at, too_short.size(), fmt::format("{}: a mean over a change", not_steady));
 }
+
+}  // namespace
 
 void note_drifts(std::vector<Measurement>& measured, const Scene& scene) {
   const Effects& effects = scene.effects;

@@ -68,6 +68,7 @@ class PythonObservable final : public Observable {
     });
   }
   void collisions(std::span<const PairCollision> collisions) override {
+    if (broken_) return;
     waiting_->insert(waiting_->end(), collisions.begin(), collisions.end());
     if (waiting_->size() >= batch) guarded([&] { hand_over(); });
   }
