@@ -15,6 +15,12 @@ if TYPE_CHECKING:
     from carom.simulation import Simulation
 
 
+def require_memory(frames: int, disks: int, bytes_per_frame: int, advice: str) -> None:
+    """Raises MemoryError, with advice, where frames cannot fit into this machine."""
+    if frames * bytes_per_frame > os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"):
+        raise MemoryError(f"{frames:,} frames of {disks:,} disks take {frames * bytes_per_frame / 1e9:.2g} GB; {advice}")
+
+
 class FrameMemory:
     """The arrays into which the engine writes frames. Their names are those of the arguments of `run_sampled`.
 
@@ -34,12 +40,7 @@ class FrameMemory:
         may_become_rough = "roughness" in str(simulation.scene.to_dict().get("changes", ""))
         spins = disks if len(simulation.spins) or may_become_rough else 0
         per_frame = 16 * disks * (positions + velocities + (positions and periodic)) + 8 * spins + 104
-        memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-        if count * per_frame > memory:
-            raise MemoryError(
-                f"{count:,} frames of {disks:,} disks take {count * per_frame / 1e9:.2g} GB; iterate over sim.frames(dt, until), or "
-                "give a stride"
-            )
+        require_memory(count, disks, per_frame, "iterate over sim.frames(dt, until), or give a stride")
         self.time, self.scale, self.shear_displacement, self.virial = (np.empty(count) for _ in range(4))
         self.walls = np.empty((count, 4, 2))
         self.collisions = np.empty(count, np.uint64)
@@ -92,6 +93,7 @@ class FrameMemory:
             collisions=done(self.collisions),
             virial=done(self.virial),
             radii=radii,
+            masses=simulation.masses,
             species=simulation.species,
             scene=scene,
             state_hash=simulation.state_hash,

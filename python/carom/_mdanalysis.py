@@ -37,6 +37,7 @@ def universe_of(frames: Frames) -> Any:
     velocities = None if frames._velocities is None else in_space(frames._velocities)
     universe = MDAnalysis.Universe.empty(disks, trajectory=True, velocities=velocities is not None)
     universe.add_TopologyAttr("radii", frames.radii)
+    universe.add_TopologyAttr("masses", frames.masses)
     dt = float(frames.time[1] - frames.time[0]) if len(frames) > 1 else 1.0
     universe.load_new(
         in_space(frames.positions), format=TimedReader, dimensions=_boxes(frames), dt=dt, velocities=velocities, times=frames.time

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from os import PathLike
 from os.path import splitext
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
@@ -162,6 +162,7 @@ class Frames:
         collisions: shape (F,), pair collisions since time 0.
         virial: shape (F,), the sum of sigma_ij times the normal impulse over these; mass length^2 / time.
         radii: shape (N,), length.
+        masses: shape (N,).
         species: shape (N,), numbers of the species that `scene.species` names.
         scene: the scene.
         state_hash: that of the simulation when sampling ended.
@@ -182,6 +183,7 @@ class Frames:
         collisions: npt.NDArray[np.uint64],
         virial: Floats,
         radii: Floats,
+        masses: Floats,
         species: npt.NDArray[np.int32],
         scene: Scene,
         state_hash: str = "",
@@ -198,6 +200,7 @@ class Frames:
         self.collisions = collisions
         self.virial = virial
         self.radii = radii
+        self.masses = masses
         self.species = species
         self.scene = scene
         self.state_hash = state_hash
@@ -239,9 +242,17 @@ class Frames:
     def __len__(self) -> int:
         return len(self.time)
 
-    def __getitem__(self, k: int) -> State:
-        """Returns frame k, counted from the end where k is negative; parts of the arrays have many frames. Where velocities were not kept
-        its disks are at rest."""
+    @overload
+    def __getitem__(self, k: int) -> State: ...
+
+    @overload
+    def __getitem__(self, k: slice) -> Frames: ...
+
+    def __getitem__(self, k: int | slice) -> State | Frames:
+        """Returns frame k, counted from the end where k is negative, or for a slice the frames of it, in the same memory. Where
+        velocities were not kept the disks of a frame are at rest."""
+        if isinstance(k, slice):
+            return self._part(k)
         k = frame_number(k, len(self))
 
         def row(array: Any) -> Any:
@@ -256,6 +267,29 @@ class Frames:
             self.scale[k],
             self._walls[k],
             self._shear_displacement[k],
+        )
+
+    def _part(self, k: slice) -> Frames:
+        def part(array: Any) -> Any:
+            return None if array is None else array[k]
+
+        return Frames(
+            time=part(self.time),
+            positions=part(self._positions),
+            velocities=part(self._velocities),
+            images=part(self._images),
+            spins=part(self._spins),
+            walls=part(self._walls),
+            scale=part(self.scale),
+            shear_displacement=part(self._shear_displacement),
+            collisions=part(self.collisions),
+            virial=part(self.virial),
+            radii=self.radii,
+            masses=self.masses,
+            species=self.species,
+            scene=self.scene,
+            state_hash=self.state_hash,
+            interrupted=self.interrupted,
         )
 
     @property
@@ -291,7 +325,7 @@ class Frames:
         place = path_text(path, "path")
         if (ending := splitext(place)[1]) != ".npz" and ending[1:2].isalpha():
             raise ValueError(f"{place}: frames are written in numpy's format; name a file that ends in .npz, not in {ending}")
-        arrays = {name: getattr(self, name) for name in ("time", "scale", "collisions", "virial", "radii", "species")} | self._sampled()
+        arrays = {name: getattr(self, name) for name in ("time", "scale", "collisions", "virial", "radii", "masses", "species")} | self._sampled()
         try:
             np.savez(place, scene=np.array(self.scene.toml), state_hash=np.array(self.state_hash), **arrays)
         except OSError as error:
@@ -314,7 +348,7 @@ class Frames:
         dims |= {"walls": ("time", "wall", "motion"), "shear_displacement": ("time",)}
         variables: dict[str, Any] = {name: (dims.get(name, ("time", "disk")), array) for name, array in self._sampled().items()}
         variables |= {name: (("time",), getattr(self, name)) for name in ("scale", "collisions", "virial")}
-        variables |= {name: (("disk",), getattr(self, name)) for name in ("radii", "species")}
+        variables |= {name: (("disk",), getattr(self, name)) for name in ("radii", "masses", "species")}
         coordinates: dict[str, Any] = {"time": self.time, "axis": ["x", "y"]}
         if "walls" in variables:
             coordinates |= {"wall": ["left", "right", "bottom", "top"], "motion": ["position", "velocity"]}
@@ -329,3 +363,29 @@ class Frames:
         from carom._mdanalysis import universe_of
 
         return universe_of(self)
+
+
+def frames_of(
+    sampled: tuple[Any, ...], properties: tuple[Floats, Floats, npt.NDArray[np.int32]], scene: Scene, state_hash: str, interrupted: bool = False
+) -> Frames:
+    """Returns the samples of a run as the library has them. `properties` are radii, masses and species."""
+    radii, masses, species = properties
+    times, positions, velocities, images, spins, walls, scale, shear_displacement, collisions, virial = sampled
+    return Frames(
+        time=times,
+        positions=positions,
+        velocities=velocities,
+        images=images if any(scene.periodic) else None,
+        spins=spins if spins.shape[1] else None,
+        walls=walls,
+        scale=scale,
+        shear_displacement=shear_displacement,
+        collisions=collisions,
+        virial=virial,
+        radii=radii,
+        masses=masses,
+        species=species,
+        scene=scene,
+        state_hash=state_hash,
+        interrupted=interrupted,
+    )

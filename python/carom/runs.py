@@ -14,15 +14,13 @@ from functools import partial
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from carom import _core
 from carom._arguments import path_text, real, require_steps_that_fit, shown, whole, words
 from carom._errors import Interrupted, OutputError
 from carom._hdf5 import hdf5
 from carom._measured import measurements_of
 from carom._progress import Progress, reporting
-from carom.frames import Frames, State
+from carom.frames import Frames, State, frames_of
 from carom.observables import Observable
 from carom.results import Measurement, Number
 from carom.scene import Scene, SceneLike, as_scene
@@ -433,30 +431,13 @@ def _progress_callback(scene: Scene, report_fraction: Any) -> Any:
 def _result(scene: Scene, directory: Path | None, parts: tuple[Any, ...]) -> Result:
     import json
 
-    summary_text, measured, disks, files, sampled, state, interrupted, saved, remarks, radii, species = parts
+    summary_text, measured, disks, files, sampled, state, interrupted, saved, remarks, properties = parts
     summary = json.loads(summary_text)
     for remark in remarks:
         warnings.warn(remark, stacklevel=3)
     frames = None
     if sampled is not None:
-        times, positions, velocities, images, spins, walls, scale, shear_displacement, collisions, virial = sampled
-        frames = Frames(
-            time=times,
-            positions=positions,
-            velocities=velocities,
-            images=images if any(scene.periodic) else None,
-            spins=spins if spins.shape[1] else None,
-            walls=walls,
-            scale=scale,
-            shear_displacement=shear_displacement,
-            collisions=collisions,
-            virial=virial,
-            radii=np.array(radii),
-            species=np.array(species, np.int32),
-            scene=scene,
-            state_hash=summary["state_hash"],
-            interrupted=interrupted,
-        )
+        frames = frames_of(sampled, properties, scene, summary["state_hash"], interrupted)
     result = Result(
         summary=summary,
         observables=measurements_of(measured),

@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
 from os import PathLike, fspath
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -15,10 +15,11 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 from carom._arguments import absolute, frame_number, list_of_words, path_text, whole
 from carom._errors import OutputError
 from carom._events import events_in
+from carom._frame_memory import require_memory
 from carom._hdf5 import hdf5
 from carom._measured import measurements_of
 from carom._toml import value_text
-from carom.frames import State
+from carom.frames import Frames, State, frames_of
 from carom.results import Measurement
 from carom.scene import Scene
 
@@ -76,7 +77,8 @@ class Run:
         return StoredFrames(self)
 
     def state(self, k: int = -1) -> State:
-        """Returns sample k to the last bit, the last one by default: another simulation can begin with it."""
+        """Returns sample k, the last one by default: another simulation can begin with it. It is right to the last bit, positions of a
+        run with output.unwrapped to rounding."""
 
         def state(reader: _files.RunReader) -> State:
             if reader.samples == 0:
@@ -171,6 +173,9 @@ def _states(numbers: range, reader: _files.RunReader) -> list[State]:
 class StoredFrames:
     """The samples of a run in its file. Arrays behave as h5py's: `frames.positions[::100]` reads every hundredth frame.
 
+    `frames[:]` reads all frames and `frames[::100]` every hundredth, as `Frames` in memory: unwrapped, for `to_xarray()`,
+    `to_mdanalysis()`, `animate()`.
+
     Each index opens the file anew, so that frames which a resumed run has added are there.
 
     Attributes:
@@ -202,9 +207,27 @@ class StoredFrames:
     def __len__(self) -> int:
         return self._run._read(lambda reader: int(reader.samples))
 
-    def __getitem__(self, k: int) -> State:
-        """Returns frame k to the last bit, counted from the end where k is negative, as `Run.state(k)` does."""
+    @overload
+    def __getitem__(self, k: int) -> State: ...
+
+    @overload
+    def __getitem__(self, k: slice) -> Frames: ...
+
+    def __getitem__(self, k: int | slice) -> State | Frames:
+        """Returns frame k, counted from the end where k is negative, as `Run.state(k)` does; for a slice its frames.
+
+        Raises MemoryError where the frames of a slice cannot fit into this machine."""
+        if isinstance(k, slice):
+            return self._run._read(partial(self._part, k))
         return self._run._read(lambda reader: State._of(reader.sample(frame_number(k, reader.samples) % reader.samples)))
+
+    def _part(self, k: slice, reader: _files.RunReader) -> Frames:
+        numbers = range(reader.samples)[k]
+        properties = reader.disks()
+        disks = len(properties[0])
+        require_memory(len(numbers), disks, 48 * disks + 104, "read fewer of them with a step, frames[::10]")
+        sampled = reader.samples_of(max(0, numbers.start), numbers.step, len(numbers))
+        return frames_of(sampled, properties, self.scene, self._run.state_hash)
 
     def __iter__(self) -> Iterator[State]:
         frames = len(self)

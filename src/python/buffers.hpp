@@ -8,9 +8,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <initializer_list>
 #include <limits>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -33,6 +35,13 @@ template <class Value, class Holder>
   auto* const held = new Held(std::forward<Holder>(values));
   const nb::capsule owner(held, [](void* p) noexcept { delete static_cast<Held*>(p); });
   return Array<Value>(reinterpret_cast<const Value*>(held->data()), shape.size(), shape.begin(), owner);
+}
+
+/// Returns radii, masses and species.
+[[nodiscard]] inline auto arrays_of(const Disks& disks) {
+  const std::size_t n = disks.count();
+  return std::tuple(array_that_owns<double>(disks.radius, {n}), array_that_owns<double>(disks.mass, {n}),
+                    array_that_owns<std::int32_t>(disks.species, {n}));
 }
 
 /// Returns values that `owner` holds as an array that keeps the owner alive.

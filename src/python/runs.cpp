@@ -53,6 +53,12 @@ struct SampledStates {
   std::vector<std::int64_t> images;
   std::vector<std::uint64_t> collisions;
 
+  /// Makes room for so many more frames.
+  void reserve(std::size_t frames, std::size_t disks) {
+    for (auto* each : {&positions, &velocities}) each->reserve(2 * frames * disks);
+    images.reserve(2 * frames * disks);
+  }
+
   void add(const State& state, const Totals& totals) {
     const auto append = [](auto& all, const auto& matrix) {
       all.insert(all.end(), matrix.data(), matrix.data() + matrix.size());
@@ -87,6 +93,21 @@ struct SampledStates {
         array_that_owns<std::uint64_t>(std::move(collisions), {frames}), array_that_owns<double>(std::move(virial), {frames}));
   }
 };
+
+/// Reads `count` samples of a run from `first` on, every step-th of them; the arrays are those of SampledStates.
+nb::tuple samples_of(const RunReader& run, std::uint64_t first, std::int64_t step, std::uint64_t count) {
+  SampledStates sampled;
+  {
+    const nb::gil_scoped_release released;
+    sampled.reserve(count, run.disks().count());
+    for (std::uint64_t i = 0; i < count; ++i) {
+      const std::uint64_t k = first + i * static_cast<std::uint64_t>(step);  // backward too: whole numbers wrap
+      sampled.add(run.sample(k), run.totals(k));
+      look_at_python();
+    }
+  }
+  return std::move(sampled).arrays(run.disks().count());
+}
 
 /// What a run is asked for besides its scene.
 struct RunWishes {
@@ -214,7 +235,7 @@ class PythonRun {
     return nb::borrow<AnyTuple>(nb::make_tuple(summary_json(outcome.report, runner_.provenance()),
                                                tuples_of(outcome.report.observables), outcome.report.stopped_disks, outcome.files,
                                                frames, runner_.state(), interrupted_, runner_.saved_now(), warnings_,
-                                               disks_of(simulation_.whole_scene()).radius, simulation_.disks().species));
+                                               arrays_of(disks_of(simulation_.whole_scene()))));
   }
 
  private:
@@ -396,6 +417,13 @@ void add_runs(nb::module_& module) {
       .def_prop_ro("events", &RunReader::events)
       .def_prop_ro("has_event_log", &RunReader::has_event_log)
       .def("sample", &RunReader::sample, nb::arg("k"))
+      .def(
+          "samples_of",
+          [](const RunReader& run, std::uint64_t first, std::int64_t step, std::uint64_t count) {
+            return nb::borrow<AnyTuple>(samples_of(run, first, step, count));
+          },
+          nb::arg("first"), nb::arg("step"), nb::arg("count"))
+      .def("disks", [](const RunReader& run) { return arrays_of(run.disks()); })
       .def("sample_times",
            [](const RunReader& run) {
              std::vector<double> times = run.sample_times();

@@ -351,13 +351,7 @@ void add_facts(nb::class_<Running>& simulation) {
       .def_prop_ro("bytes", [](Running& self) { return self.use([](Simulation& s) { return s.bytes(); }); })
       .def_prop_ro("scene", [](Running& self) { return self.use([](Simulation& s) { return scene_now(s); }); })
       .def_prop_ro("totals", [](Running& self) { return self.use([](Simulation& s) { return dict_of(s.totals()); }); })
-      .def("disks",
-           [](Running& self) {
-             const Disks disks = self.use([](Simulation& s) { return s.disks(); });
-             const std::size_t n = disks.count();
-             return std::tuple(array_that_owns<double>(disks.radius, {n}), array_that_owns<double>(disks.mass, {n}),
-                               array_that_owns<std::int32_t>(disks.species, {n}));
-           })
+      .def("disks", [](Running& self) { return arrays_of(self.use([](Simulation& s) { return s.disks(); })); })
       .def("state", [](Running& self) { return self.use_alone([](Simulation& s) { return s.state(); }); })
       .def_prop_ro("has_collision_rule",
                    [](Running& self) { return self.use([](Simulation& s) { return s.has_collision_rule(); }); })

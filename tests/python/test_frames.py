@@ -224,6 +224,15 @@ def test_a_box_without_periodic_axes_has_images_of_zero() -> None:
     assert frames.unwrapped is frames.positions
 
 
+@pytest.mark.parametrize("part", [slice(None), slice(2, -1, 2), slice(None, None, -3), slice(5, 2)], ids=str)
+def test_a_slice_of_frames_has_the_frames_of_it(gas: carom.Scene, part: slice) -> None:
+    frames = carom.Simulation(gas).sample(0.25, until=3.0)
+    some = frames[part]
+    assert list(some) == [frames[k] for k in range(len(frames))[part]]
+    assert some.time.tolist() == frames.time[part].tolist() and some.collisions.tolist() == frames.collisions[part].tolist()
+    assert np.array_equal(some.unwrapped, frames.unwrapped[part]) and some.to_xarray().sizes["time"] == len(some)
+
+
 def test_a_simulation_has_a_trajectory_when_it_was_sampled(gas: carom.Scene) -> None:
     sim = carom.Simulation(gas)
     with pytest.raises(ValueError, match="this simulation has no trajectory yet; sample"):

@@ -482,6 +482,22 @@ def test_frames_that_a_run_gains_later_are_there(gas, tmp_path):
     assert [state.time for state in frames] == np.arange(0.0, 40.5, 0.5).tolist()
 
 
+@pytest.mark.parametrize("part", [slice(None), slice(2, -1, 2), slice(None, None, -3), slice(5, 2)], ids=str)
+@pytest.mark.parametrize("preset", ["gas", "growth", "compression", "couette", "rough"])
+def test_a_slice_of_stored_frames_is_that_of_frames_in_memory(tmp_path, preset, part):
+    scene = carom.Scene.preset(preset).set({"run.time": 1.0, "run.sample_every": 0.1})
+    frames = carom.run(scene, out=tmp_path / "run", frames=True).frames[part]
+    stored = carom.open_run(tmp_path / "run").frames[part]
+    assert len(frames) == len(stored) == len(range(11)[part])
+    assert stored.state_hash == frames.state_hash and stored.scene == frames.scene
+    for name in ("time", "positions", "velocities", "images", "unwrapped", "scale", "collisions", "virial", "radii", "masses", "species"):
+        array, expected = getattr(stored, name), getattr(frames, name)
+        assert array.dtype == expected.dtype and np.array_equal(array, expected), name
+    for state, expected in zip(stored, frames, strict=True):
+        assert state == expected and np.array_equal(state.spins, expected.spins) and state.walls == expected.walls
+    assert stored.to_xarray().identical(frames.to_xarray()) or len(frames) == 0
+
+
 class Odd(carom.Observable):
     name = "odd"
 

@@ -76,6 +76,7 @@ def test_a_universe_of_mdanalysis_there_and_back():
     assert np.array_equal(start.positions, frames.positions[-1].astype(np.float32))
     assert np.array_equal(start.velocities, frames.velocities[-1].astype(np.float32))
     assert start.box == ((0.0, 10.0), (0.0, 8.0)) and np.all(start.radii == 0.5)
+    assert np.array_equal(start.masses, frames.masses) and np.array_equal(frames.masses, sim.masses)
     carom.Simulation(scene(box).with_disks(start))
 
 
