@@ -238,6 +238,7 @@ def run(
     Raises:
         Interrupted: on Ctrl-C. Its `result` holds all until then, the files are complete, and `carom.resume(out)` goes on.
         SceneError: where the scene is wrong; OutputError: where a file cannot be written; ValueError: where arguments do not fit.
+        MemoryError: where this machine has too little memory for the disks.
     """
     given = as_scene(scene)
     if seed is not None:

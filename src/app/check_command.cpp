@@ -6,6 +6,7 @@
 #include "observe/mechanics.hpp"
 #include "pages/scene_words.hpp"
 #include "runner/expected_cost.hpp"
+#include "runner/expected_memory.hpp"
 #include "runner/run_threads.hpp"
 #include "scene/changes.hpp"
 #include "scene/drawn.hpp"

@@ -7,7 +7,7 @@
 #include "app/terminal_summary.hpp"
 #include "io/provenance.hpp"
 #include "io/run_directory.hpp"
-#include "runner/expected_cost.hpp"
+#include "runner/expected_memory.hpp"
 #include "terminal/progress.hpp"
 #include "text/methods.hpp"
 #include "text/numbers.hpp"
@@ -94,9 +94,7 @@ ExitCode run_scene(const RunOptions& options, const Invocation& invocation, Proc
       throw UsageError(error.what());
     }
   };
-  if (const ExpectedMemory memory = expected_memory(scene); memory.is_too_much())  // the system would end the program, or others
-    throw UsageError(fmt::format("{}: there is not enough memory for {} disks: they need {}; fewer disks need less", scene.source,
-                                 grouped(static_cast<std::uint64_t>(scene.disk_count())), memory.words()));
+  if (const auto refusal = too_little_memory(scene)) throw UsageError(*refusal);  // the system would end the program, or others
   with_usage([&] { RunDirectory::require_free(directory_for(options), options.force); });  // to place disks may take minutes
   Simulation simulation = simulation_for(options, scene, engine);
   take_threads(simulation, options, processes);

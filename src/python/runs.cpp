@@ -7,6 +7,7 @@
 #include "python/buffers.hpp"
 #include "python/observables.hpp"
 #include "python/parts.hpp"
+#include "runner/expected_memory.hpp"
 #include "runner/resumed_run.hpp"
 #include "runner/run_threads.hpp"
 #include "runner/runner.hpp"
@@ -310,6 +311,10 @@ AnyTuple run(const Scene& scene, const std::string& engine, const std::optional<
              std::optional<double> stiffness, const std::optional<std::string>& path, bool overwrite, const RunWishes& wishes) {
   if (path) RunDirectory::require_free(*path, overwrite);  // to place disks may take minutes
   require_saving_plan(wishes.checkpoint_every);
+  if (const auto refusal = too_little_memory(scene)) {  // the system would end Python
+    PyErr_SetString(PyExc_MemoryError, refusal->c_str());
+    throw nb::python_error();
+  }
   Simulation simulation = [&] {
     const nb::gil_scoped_release released;
     Progress beginning;

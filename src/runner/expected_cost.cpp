@@ -14,8 +14,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
-#include <fstream>
 #include <limits>
 #include <string>
 #include <variant>
@@ -70,14 +68,6 @@ Part sum_of(const std::vector<Part>& parts) {
   Part sum{0.0, 0.0};
   for (const Part& part : parts) sum.time += part.time, sum.collisions += part.collisions;
   return sum;
-}
-
-/// Returns the bytes that programs can still be given, in the words of Linux; empty where the system does not say.
-std::optional<double> memory_free() {
-  std::ifstream file("/proc/meminfo");
-  for (std::string line; std::getline(file, line);)
-    if (double kilobytes = 0.0; std::sscanf(line.c_str(), "MemAvailable: %lf kB", &kilobytes) == 1) return 1024.0 * kilobytes;
-  return std::nullopt;
 }
 
 bool has_end(const Part& part) { return part.time < unlimited || part.collisions < unlimited; }
@@ -231,21 +221,6 @@ ExpectedCost Trial::run() {
   }
   if (!scene_.observe.empty()) observe(cost, start, time - parts.back().lasts(per_time), parts.back().lasts(per_time));
   return cost;
-}
-
-ExpectedMemory expected_memory(const Scene& scene) {
-  constexpr double without_effects = 215.0;  // of equal disks at a packing fraction of 0.5, as the tests measure it
-  ExpectedMemory memory{.bytes_per_disk = without_effects, .free = memory_free()};
-  for (const detail::EffectTraits& effect : detail::all_effects())
-    if (effect.is_present(scene.effects)) memory.bytes_per_disk += effect.bytes_per_disk;
-  constexpr double at_the_start = 135.0;  // more while disks are drawn, of a run of 10^7 (docs/performance.md)
-  memory.bytes = (memory.bytes_per_disk + at_the_start) * static_cast<double>(scene.disk_count());
-  return memory;
-}
-
-std::string ExpectedMemory::words() const {
-  return fmt::format("some {:.0f} bytes per disk, and {} in all at the start{}", bytes_per_disk, size(bytes),
-                     free ? fmt::format("; {} are free", size(*free)) : "");
 }
 
 std::string cost_words(const ExpectedCost& cost) {

@@ -49,18 +49,6 @@ class Trial {
   Simulation simulation_;
 };
 
-/// The memory that a run of many disks takes by the table of effects; fixed shapes and bonds add to it.
-struct ExpectedMemory {
-  double bytes_per_disk = 0.0;  ///< of the engine
-  double bytes = 0.0;           ///< of all disks at the start, when they take the most
-  std::optional<double> free;   ///< bytes that the system can give; empty where it does not say
-
-  [[nodiscard]] bool is_too_much() const { return free && bytes > *free; }
-  /// Returns "some 215 bytes per disk, and 35 GB in all at the start; 24 GB are free".
-  [[nodiscard]] std::string words() const;
-};
-[[nodiscard]] ExpectedMemory expected_memory(const Scene& scene);
-
 /// Returns the cost in words: "about 12 s on this machine for 23 million collisions (a trial run of 200 ms: 1.92 million
 /// collisions per second)".
 std::string cost_words(const ExpectedCost& cost);

@@ -1,6 +1,6 @@
 // carom run: where it writes, what it prints, and what it leaves alone.
 
-#include "runner/expected_cost.hpp"
+#include "runner/expected_memory.hpp"
 #include "support/program_test.hpp"
 
 #include <gmock/gmock.h>
@@ -67,7 +67,7 @@ TEST_F(RunCommand, QuietSaysWhyARunEndedEarly) {
 TEST_F(RunCommand, MoreDisksThanThereIsMemoryForAreRefusedBeforeTheyAreDrawn) {
   const std::string disks = "2000000000";
   const std::vector<std::string> overrides = {"disks.0.count=" + disks, "box.x=[0.0,100000.0]", "box.y=[0.0,100000.0]"};
-  if (!expected_memory(parse_scene(fifty_disks, "gas.toml", overrides)).is_too_much()) GTEST_SKIP() << "there is enough";
+  if (!too_little_memory(parse_scene(fifty_disks, "gas.toml", overrides))) GTEST_SKIP() << "there is enough";
   std::vector<std::string> words = {"run", "gas.toml"};
   for (const std::string& word : overrides) words.insert(words.end(), {"--set", word});
   const Outcome outcome = carom(words);

@@ -3,7 +3,7 @@
 
 #include "observe/mechanics.hpp"
 #include "pages/scene_words.hpp"
-#include "runner/expected_cost.hpp"
+#include "runner/expected_memory.hpp"
 #include "scene/changes.hpp"
 #include "scene/effect_traits.hpp"
 #include "support/effect_scenes.hpp"

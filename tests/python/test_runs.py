@@ -401,6 +401,15 @@ def test_results_in_the_way_are_kept(tmp_path, gas):
     carom.run(gas, out=tmp_path / "run", overwrite=True)
 
 
+def test_more_disks_than_there_is_memory_for_are_refused_before_they_are_drawn(tmp_path, gas):
+    if not os.path.exists("/proc/meminfo"):
+        pytest.skip("the system does not say how much memory is free")
+    many = gas.set({"disks.0.count": 2_000_000_000})
+    with pytest.raises(MemoryError, match=r"there is not enough memory for 2,000,000,000 disks: they need some 215 bytes per disk, and 700 GB"):
+        carom.run(many, out=tmp_path / "run")
+    assert not (tmp_path / "run").exists()
+
+
 def test_directories_that_are_none_are_named(tmp_path):
     with pytest.raises(carom.OutputError, match="no directory of a finished run"):
         carom.open_run(tmp_path)
