@@ -45,7 +45,9 @@ NB_MODULE(_files, module) {
   nb::set_leak_warnings(false);
   add_descriptions(module);
   add_pages(module);
+  add_call_on_thread(module);
   add_runs(module);
+  add_stored_runs(module);
   add_studies(module);
 }
 

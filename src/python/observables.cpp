@@ -174,12 +174,6 @@ Measurement PythonObservable::measured(double time, const Totals& totals) {
   return measured;
 }
 
-}  // namespace
-
-std::unique_ptr<Observable> observable_of(const nb::object& object, ObservableFailed failed) {
-  return std::make_unique<PythonObservable>(object, std::move(failed));
-}
-
 nb::tuple tuple_of(const Measurement& measurement) {
   nb::list scalars, tables;
   for (const Scalar& scalar : measurement.scalars)
@@ -192,6 +186,18 @@ nb::tuple tuple_of(const Measurement& measurement) {
     tables.append(nb::make_tuple(table.name, columns));
   }
   return nb::make_tuple(measurement.name, measurement.note, scalars, tables);
+}
+
+}  // namespace
+
+std::unique_ptr<Observable> observable_of(const nb::object& object, ObservableFailed failed) {
+  return std::make_unique<PythonObservable>(object, std::move(failed));
+}
+
+nb::typed<nb::list, AnyTuple> tuples_of(const std::vector<Measurement>& measurements) {
+  nb::list tuples;
+  for (const Measurement& measurement : measurements) tuples.append(tuple_of(measurement));
+  return nb::borrow<nb::typed<nb::list, AnyTuple>>(tuples);
 }
 
 }  // namespace carom::python

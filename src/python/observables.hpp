@@ -8,8 +8,12 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace carom::python {
+
+/// A tuple as type checkers see it.
+using AnyTuple = nanobind::typed<nanobind::tuple, nanobind::any, nanobind::ellipsis>;
 
 /// A function that is given what sample(), collisions() or finish() of an observable has thrown. The observable is not called
 /// again then, has no results, and is no longer saved.
@@ -22,6 +26,6 @@ using ObservableFailed = std::function<void(std::exception_ptr)>;
 
 /// Returns what was measured as plain tuples, of which carom._measured makes numbers and tables: (name, note, scalars, tables), a
 /// scalar being (name, value, error, unit, time, note) and a table (name, [(column, unit, array)]).
-[[nodiscard]] nanobind::tuple tuple_of(const Measurement& measurement);
+[[nodiscard]] nanobind::typed<nanobind::list, AnyTuple> tuples_of(const std::vector<Measurement>& measurements);
 
 }  // namespace carom::python

@@ -16,7 +16,9 @@ void add_structure(nanobind::module_& module);
 // carom._files
 void add_descriptions(nanobind::module_& module);
 void add_pages(nanobind::module_& module);
+void add_call_on_thread(nanobind::module_& module);
 void add_runs(nanobind::module_& module);
+void add_stored_runs(nanobind::module_& module);
 void add_studies(nanobind::module_& module);
 
 }  // namespace carom::python

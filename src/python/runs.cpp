@@ -1,21 +1,17 @@
-// Runs of a scene's whole schedule, with files and without, and what they leave.
+// Runs of a scene's whole schedule, with files and without.
 
 #include "io/run_directory.hpp"
-#include "io/run_record.hpp"
-#include "io/same_results.hpp"
 #include "io/summary.hpp"
 #include "python/buffers.hpp"
 #include "python/observables.hpp"
 #include "python/parts.hpp"
+#include "python/sampled_states.hpp"
 #include "runner/expected_memory.hpp"
 #include "runner/resumed_run.hpp"
 #include "runner/run_threads.hpp"
 #include "runner/runner.hpp"
 #include "simulation/start.hpp"
-#include "studies/analysis/analysis.hpp"
 #include "text/numbers.hpp"
-
-#include <carom/io/run_reader.hpp>
 
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
@@ -23,15 +19,10 @@
 #include <nanobind/stl/vector.h>
 
 #include <chrono>
-#include <condition_variable>
-#include <csignal>
 #include <cstdint>
 #include <exception>
-#include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -39,76 +30,7 @@ namespace carom::python {
 
 namespace {
 
-using AnyTuple = nb::typed<nb::tuple, nb::any, nb::ellipsis>;
 using Objects = nb::typed<nb::list, nb::any>;
-
-nb::typed<nb::list, AnyTuple> tuples_of(const std::vector<Measurement>& measurements) {
-  nb::list tuples;
-  for (const Measurement& measurement : measurements) tuples.append(tuple_of(measurement));
-  return nb::borrow<nb::typed<nb::list, AnyTuple>>(tuples);
-}
-
-/// The samples of a run, in memory.
-struct SampledStates {
-  std::vector<double> time, scale, shear_displacement, virial, positions, velocities, spins, walls;
-  std::vector<std::int64_t> images;
-  std::vector<std::uint64_t> collisions;
-
-  /// Makes room for so many more frames.
-  void reserve(std::size_t frames, std::size_t disks) {
-    for (auto* each : {&positions, &velocities}) each->reserve(2 * frames * disks);
-    images.reserve(2 * frames * disks);
-  }
-
-  void add(const State& state, const Totals& totals) {
-    const auto append = [](auto& all, const auto& matrix) {
-      all.insert(all.end(), matrix.data(), matrix.data() + matrix.size());
-    };
-    time.push_back(state.time);
-    scale.push_back(state.scale);
-    shear_displacement.push_back(state.shear_displacement);
-    walls.resize(time.size() * numbers_of_walls);
-    write_walls(state.walls, walls.data() + (time.size() - 1) * numbers_of_walls);
-    virial.push_back(totals.virial);
-    collisions.push_back(totals.pair);
-    append(positions, state.positions);
-    append(velocities, state.velocities);
-    append(images, state.images);
-    if (state.spins.size() == 0 && spins.empty()) return;
-    const auto disks =
-        static_cast<std::size_t>(state.positions.cols());  // changes make disks rough, and smooth: 0 where they are
-    spins.resize((time.size() - 1) * disks, 0.0);
-    append(spins, state.spins);
-    spins.resize(time.size() * disks, 0.0);
-  }
-
-  /// time, positions, velocities, images, spins, walls, scale, shear_displacement, collisions, virial
-  nb::tuple arrays(std::size_t disks) && {
-    const std::size_t frames = time.size(), spinning = spins.empty() ? 0 : disks;
-    return nb::make_tuple(
-        array_that_owns<double>(std::move(time), {frames}), array_that_owns<double>(std::move(positions), {frames, disks, 2}),
-        array_that_owns<double>(std::move(velocities), {frames, disks, 2}),
-        array_that_owns<std::int64_t>(std::move(images), {frames, disks, 2}),
-        array_that_owns<double>(std::move(spins), {frames, spinning}), array_that_owns<double>(std::move(walls), {frames, 4, 2}),
-        array_that_owns<double>(std::move(scale), {frames}), array_that_owns<double>(std::move(shear_displacement), {frames}),
-        array_that_owns<std::uint64_t>(std::move(collisions), {frames}), array_that_owns<double>(std::move(virial), {frames}));
-  }
-};
-
-/// Reads `count` samples of a run from `first` on, every step-th of them; the arrays are those of SampledStates.
-nb::tuple samples_of(const RunReader& run, std::uint64_t first, std::int64_t step, std::uint64_t count) {
-  SampledStates sampled;
-  {
-    const nb::gil_scoped_release released;
-    sampled.reserve(count, run.disks().count());
-    for (std::uint64_t i = 0; i < count; ++i) {
-      const std::uint64_t k = first + i * static_cast<std::uint64_t>(step);  // backward too: whole numbers wrap
-      sampled.add(run.sample(k), run.totals(k));
-      look_at_python();
-    }
-  }
-  return std::move(sampled).arrays(run.disks().count());
-}
 
 /// What a run is asked for besides its scene.
 struct RunWishes {
@@ -130,72 +52,6 @@ bool may_go_on(const nb::object& report, const Progress& progress) {
 [[noreturn]] void throw_interrupt() {
   PyErr_SetNone(PyExc_KeyboardInterrupt);
   throw nb::python_error();
-}
-
-/// Whether a thread has come to its end.
-class Ended {
- public:
-  void tell() {
-    const std::lock_guard lock(mutex_);
-    told_ = true;
-    changed_.notify_all();
-  }
-  /// Waits for a hundredth of a second at most.
-  [[nodiscard]] bool wait() {
-    std::unique_lock lock(mutex_);
-    return changed_.wait_for(lock, std::chrono::milliseconds(10), [this] { return told_; });
-  }
-
- private:
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  bool told_ = false;
-};
-
-/// Does as wait() while other threads of Python run.
-bool waited_for(Ended& ended) {
-  const nb::gil_scoped_release released;
-  return ended.wait();
-}
-
-/// Calls `work`, which raises nothing, on a thread of its own, and waits for its end. What handlers of signals raise meanwhile is
-/// given to `raised`, which ends the work; a second Ctrl-C is raised at once and leaves the work behind. Handlers run here, and
-/// not within code of Python that waits with locks.
-void call_on_thread(nb::object work, const nb::object& raised) {
-  const auto ended = std::make_shared<Ended>();
-  std::thread thread([ended, work = std::move(work)]() mutable {
-    {
-      const nb::gil_scoped_acquire locked;
-      try {
-        work();
-      } catch (nb::python_error& error) {
-        error.discard_as_unraisable("carom.run");
-      }
-      work.reset();
-    }
-    ended->tell();
-  });
-  int interrupts = 0;
-  while (!waited_for(*ended)) {
-    if (PyErr_CheckSignals() == 0) continue;
-    nb::python_error error;
-    interrupts += error.matches(PyExc_KeyboardInterrupt) ? 1 : 0;
-    if (interrupts > 1) {
-      thread.detach();
-      // Python must not end while the thread is in it.
-      nb::module_::import_("atexit").attr("register")(nb::cpp_function([ended] {
-        while (!waited_for(*ended))
-          if (PyErr_CheckSignals() != 0) {  // a third Ctrl-C
-            std::signal(SIGINT, SIG_DFL);
-            std::raise(SIGINT);
-          }
-      }));
-      throw error;
-    }
-    raised(error.value());
-  }
-  const nb::gil_scoped_release released;
-  thread.join();
 }
 
 class PythonRun {
@@ -369,7 +225,6 @@ AnyTuple resume(const std::string& path, std::optional<double> time, std::option
 }  // namespace
 
 void add_runs(nb::module_& module) {
-  module.def("call_on_thread", &call_on_thread, nb::arg("work"), nb::arg("raised"));
   module.def(
       "run",
       [](const Scene& scene, const std::string& engine, const std::optional<std::string>& method, double dt,
@@ -393,53 +248,6 @@ void add_runs(nb::module_& module) {
       nb::arg("directory"), nb::arg("time").none(), nb::arg("collisions").none(), nb::arg("observables"),
       nb::arg("checkpoint_every").none(), nb::arg("walltime").none(), nb::arg("threads").none(), nb::arg("report"),
       nb::arg("progress").none());
-  module.def(
-      "analyse",
-      [](const std::string& directory, const std::vector<std::string>& observables) {
-        const Analysis analysis = [&] {
-          const nb::gil_scoped_release released;
-          return analyse(directory, observables, [](double) { look_at_python(); });
-        }();
-        return tuples_of(analysis.observables);
-      },
-      nb::arg("directory"), nb::arg("observables"));
-  module.def(
-      "observables_in", [](const std::string& directory) { return tuples_of(read_run_record(directory).report.observables); },
-      nb::arg("directory"));
-  module.def(
-      "compare_results",
-      [](const std::string& one, const std::string& other) {
-        const nb::gil_scoped_release released;
-        return compare_results(one, other).differences;
-      },
-      nb::arg("one"), nb::arg("other"), "Returns one sentence for each difference of two run directories.");
-  nb::class_<RunReader>(module, "RunReader")
-      .def(
-          "__init__", [](RunReader* self, const std::string& directory) { new (self) RunReader(directory); },
-          nb::arg("directory"))
-      .def_prop_ro("scene", [](const RunReader& run) { return run.scene(); })
-      .def_prop_ro("samples", &RunReader::samples)
-      .def_prop_ro("events", &RunReader::events)
-      .def_prop_ro("has_event_log", &RunReader::has_event_log)
-      .def("sample", &RunReader::sample, nb::arg("k"))
-      .def(
-          "samples_of",
-          [](const RunReader& run, std::uint64_t first, std::int64_t step, std::uint64_t count) {
-            return nb::borrow<AnyTuple>(samples_of(run, first, step, count));
-          },
-          nb::arg("first"), nb::arg("step"), nb::arg("count"))
-      .def("disks", [](const RunReader& run) { return arrays_of(run.disks()); })
-      .def("sample_times",
-           [](const RunReader& run) {
-             std::vector<double> times = run.sample_times();
-             const std::size_t count = times.size();
-             return array_that_owns<double>(std::move(times), {count});
-           })
-      .def("event_log", [](const RunReader& run) {
-        std::vector<Event> events = run.event_log();
-        const std::size_t bytes = events.size() * sizeof(Event);
-        return array_that_owns<std::uint8_t>(std::move(events), {bytes});
-      });
 }
 
 }  // namespace carom::python
