@@ -412,5 +412,6 @@ def _prices(prices: list[dict[str, Any]]) -> Table:
     for k, name in enumerate(("lowest", "highest")):
         columns[name] = column_of_numbers(price["spread"] and price["spread"][k] for price in prices)
     columns |= {name: column_of_numbers(price[name] for price in prices) for name in ("dt", "seconds", "extrapolation")}
+    columns["at_most"] = np.array([price["at_most"] for price in prices], bool)
     columns["remark"] = column_of_words(price["remark"] for price in prices)
     return Table(columns, {"dt": "time", "seconds": "s"}, "Price: processor time over that of the exact engine")

@@ -142,6 +142,26 @@ TEST_F(KnownAnswers, TheHeadlineIsTheCheapestMethodWithItsSpreadAndTheMachine) {
   EXPECT_THAT(answers.sentences, Contains(HasSubstr("On 4 cores that step would be as fast")));
 }
 
+TEST_F(KnownAnswers, APriceOfTheLongestStepThatWasRunIsAnUpperBound) {
+  laws_.error_per_dt = 1e-12;  // right at every step
+  laws_.starts = 1;
+  laws_.dts = {0.01};
+  const Answers alone = answers_of(laws_.comparison({"backtrack"}));
+  EXPECT_TRUE(price_of(alone, "backtrack", "error 1e-6").at_most);
+  EXPECT_FALSE(price_of(alone, "fast", "error 1e-6").at_most);
+  EXPECT_THAT(alone.sentences.front(), AllOf(HasSubstr("(backtrack with dt = 0.02 mean free times, the longest that was run) "
+                                                       "needs at most 0.1 times the processor time of the exact engine"),
+                                             HasSubstr("A longer one may need less.")));
+  laws_.dts = {0.1, 0.01};
+  Comparison both = laws_.comparison({"backtrack"});
+  EXPECT_TRUE(price_of(answers_of(both), "backtrack", "error 1e-6").at_most);
+  for (MethodRun& run : both.runs)
+    if (run.method.dt == 0.1) run.error[0] = 0.5;
+  EXPECT_FALSE(price_of(answers_of(both), "backtrack", "error 1e-6").at_most);
+  laws_.dts = {KnownLaws::early_time, 0.01};  // one step, and none can be longer
+  EXPECT_FALSE(price_of(answers_of(laws_.comparison({"backtrack"})), "backtrack", "error 1e-6").at_most);
+}
+
 TEST_F(KnownAnswers, AStepIsRightOnlyWhereEveryShorterOneIsToo) {
   Comparison comparison = laws_.comparison({"backtrack"});
   for (MethodRun& run : comparison.runs)

@@ -130,6 +130,7 @@ Json json_of(const Price& price) {
           {"spread", price.ratio ? Json{number(price.lowest), number(price.highest)} : Json(nullptr)},
           {"extrapolated", price.extrapolated()},
           {"extrapolation", price.extrapolation},
+          {"at_most", price.at_most},
           {"dt", or_null(price.dt)},
           {"seconds", or_null(price.seconds)},
           {"remark", price.remark}};

@@ -86,7 +86,7 @@ TextTable time_to_Z_table(const Answers& answers) {
 /// Returns text such as "2.2 × (1.9 to 2.6), dt = 0.2 mean free times".
 std::string price_text(const Price& price, const ComparePlan& plan) {
   if (!price.ratio) return price.remark;
-  std::string text = two_digits(*price.ratio) + " ×";
+  std::string text = (price.at_most ? "at most " : "") + two_digits(*price.ratio) + " ×";
   if (std::isfinite(price.lowest) && std::isfinite(price.highest) && price.lowest < price.highest && price.lowest > 0.0)
     text += fmt::format(" ({} to {})", two_digits(price.lowest), two_digits(price.highest));
   if (price.dt) text += fmt::format(", dt = {:.2g}", plan.in_free_times(*price.dt));
@@ -101,7 +101,7 @@ TextTable prices_table(const Comparison& comparison, const Answers& answers) {
       .caption = fmt::format(
           "Processor time over that of the exact engine ({}) in this comparison. For the error of position it is the median over "
           "the starts, and in brackets the least and the greatest; for Z, in brackets, one standard error below and above. dt in "
-          "mean free times. Each method is priced at the step that costs least.",
+          "mean free times. Each method is priced at the step that costs least; “at most” where no longer one was run.",
           name_of(answers.exact))};
   for (const Price& price : answers.prices) {
     const auto same = [&](const auto& row) { return row.front() == name_of(price.method); };
@@ -125,9 +125,9 @@ std::string break_even_text(const BreakEven& even) {
 std::vector<KeyNumber> key_numbers(const Comparison& comparison, const Answers& answers) {
   std::vector<KeyNumber> numbers;
   if (const Price* best = best_fixed_step(answers.prices, "error 1e-6"))
-    numbers.push_back(
-        {two_digits(*best->ratio) + " ×",
-         fmt::format("the processor time of the exact engine: the best fixed step ({}) right to 10⁻⁶ diameters", best->method)});
+    numbers.push_back({(best->at_most ? "≤ " : "") + two_digits(*best->ratio) + " ×",
+                       fmt::format("the processor time of the exact engine: the best fixed step ({}{}) right to 10⁻⁶ diameters",
+                                   best->method, best->at_most ? " with the longest dt that was run" : "")});
   numbers.push_back(
       {fmt::format("{:.1e}", answers.exact_error),
        fmt::format("diameters: error of the exact engine after {:.2g} collisions per disk, in {}",

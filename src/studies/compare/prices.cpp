@@ -29,6 +29,7 @@ struct StartPrice {
   double seconds = 0.0;
   double dt = 0.0;
   double extrapolation = 1.0;
+  bool longest = false;  ///< no longer step was run
 };
 
 /// Returns the points of a method from one start by falling dt.
@@ -59,7 +60,7 @@ std::optional<StartPrice> extrapolated(const std::vector<Point>& points, double 
   if (per_dt.back() > steady * per_dt.front()) return std::nullopt;
   const Point& last = points.back();
   const double factor = last.dt * per_dt[1] / error;
-  return StartPrice{last.seconds * factor, last.dt / factor, factor};
+  return StartPrice{last.seconds * factor, last.dt / factor, factor, false};
 }
 
 /// `has_order`: the errors of the method fall with dt by a law, and not in one fall from a mistake to rounding.
@@ -75,13 +76,13 @@ std::optional<StartPrice> price_from(const std::vector<Point>& points, double er
     const Point longer = between(points[first - 1], points[first], error);
     if (longer.seconds < best.seconds) best = longer;
   }
-  return StartPrice{best.seconds, best.dt, 1.0};
+  return StartPrice{best.seconds, best.dt, 1.0, best.dt == points.front().dt};
 }
 
 Price price_of_position(const Comparison& comparison, const Method& method, const Target& target) {
   Price price{.method = method.name, .target = target.name, .ratio = {}, .dt = {}, .seconds = {}, .remark = ""};
   std::vector<double> ratios, seconds, steps, factors, errors;
-  std::size_t starts = 0;
+  std::size_t starts = 0, longest = 0;
   for (const std::uint64_t seed : comparison.plan.seeds) {
     const std::vector<Point> exact = points_of(comparison, comparison.plan.horizon.engine, seed);
     const std::vector<Point> points = points_of(comparison, method.name, seed);
@@ -94,6 +95,7 @@ Price price_of_position(const Comparison& comparison, const Method& method, cons
     if (!from_here) continue;
     steps.push_back(from_here->dt);
     factors.push_back(from_here->extrapolation);
+    if (from_here->longest) ++longest;
   }
   if (starts == 0) return price.remark = "not run", price;
   const double median = spread_of(ratios).median;
@@ -108,6 +110,7 @@ Price price_of_position(const Comparison& comparison, const Method& method, cons
   price.seconds = spread_of(seconds).median;
   if (!method.exact()) price.dt = spread_of(steps).median;
   price.extrapolation = spread_of(factors).median;
+  price.at_most = price.dt && 2 * longest > steps.size() && *price.dt < comparison.plan.early_time();
   return price;
 }
 
@@ -183,6 +186,9 @@ std::vector<Price> prices_of(const Comparison& comparison, const std::vector<Met
         const double error = jackknife_error(others);
         price.lowest = ratio - error;
         price.highest = ratio + error;
+        price.at_most = row.dt && std::none_of(summaries.begin(), summaries.end(), [&](const MethodSummary& summary) {
+                          return summary.method.name == row.method && summary.Z && summary.method.dt > *row.dt;
+                        });
       }
       prices.push_back(price);
     }

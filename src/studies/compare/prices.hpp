@@ -42,6 +42,7 @@ struct Price {
   std::optional<double> dt;
   std::optional<double> seconds;
   double extrapolation = 1.0;  ///< the shortest step that was run over `dt`, where that is shorter; else 1
+  bool at_most = false;        ///< the longest step that was run costs least: a longer one may cost less
   std::string remark;          ///< why there is no ratio
 
   [[nodiscard]] bool extrapolated() const { return extrapolation > 1.0; }

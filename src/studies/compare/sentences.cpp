@@ -54,9 +54,12 @@ std::string collisions_per_disk(double number) {
   return text + (text == "1" ? " collision per disk" : " collisions per disk");
 }
 
+/// Returns text such as "2.2", or "at most 2.2".
+std::string at_most(const Price& price) { return (price.at_most ? "at most " : "") + two_digits(*price.ratio); }
+
 /// Returns text such as "2.2 times (1.9 to 2.6)"; the spread where there are several starts.
 std::string times(const Price& price, const ComparePlan& plan) {
-  const std::string ratio = two_digits(*price.ratio) + " times";
+  const std::string ratio = at_most(price) + " times";
   if (plan.seeds.size() < 2 || !std::isfinite(price.highest)) return ratio;
   return fmt::format("{} ({} to {} over {})", ratio, two_digits(price.lowest), two_digits(price.highest), starts_words(plan));
 }
@@ -76,11 +79,12 @@ std::string what_it_costs(const ComparePlan& plan, const Answers& answers) {
   if (best != nullptr)
     return fmt::format(
         "For an error of 1e-6 diameters {} the best fixed step ({}{}) needs {} the processor time of the exact engine, both on "
-        "one "
-        "core of {}. {} there.",
+        "one core of {}.{} {} there.",
         when, with_its_step(*best, plan),
-        best->extrapolated() ? fmt::format(", extrapolated by {:.2g} in dt", best->extrapolation) : "", times(*best, plan),
-        plan.machine, exact);
+        best->extrapolated() ? fmt::format(", extrapolated by {:.2g} in dt", best->extrapolation)
+        : best->at_most      ? ", the longest that was run"
+                             : "",
+        times(*best, plan), plan.machine, best->at_most ? " A longer one may need less." : "", exact);
   return fmt::format("{} {}. {}", exact, when,
                      any ? "No fixed step that was run comes within a factor of 3 in dt of an error of 1e-6 diameters."
                          : "No fixed step that was run is right to 1e-6 diameters, and their errors do not say which would be.");
@@ -159,15 +163,13 @@ std::string what_pressure_costs(const ComparePlan& plan, const Answers& answers)
   if (!untold.empty())
     return fmt::format(
         "For Z to 1 % the best fixed step ({}) needs {} times the processor time of the exact engine. These runs are too short "
-        "to "
-        "tell which step of {} is right to 0.1 %.",
-        with_its_step(*percent, plan), two_digits(*percent->ratio), fmt::join(untold, " and "));
+        "to tell which step of {} is right to 0.1 %.",
+        with_its_step(*percent, plan), at_most(*percent), fmt::join(untold, " and "));
   if (thousandth == nullptr) return "";
   return fmt::format(
       "For Z to 1 % the best fixed step ({}) needs {} times the processor time of the exact engine, for Z to 0.1 % ({}) {} "
       "times.",
-      with_its_step(*percent, plan), two_digits(*percent->ratio), with_its_step(*thousandth, plan),
-      two_digits(*thousandth->ratio));
+      with_its_step(*percent, plan), at_most(*percent), with_its_step(*thousandth, plan), at_most(*thousandth));
 }
 
 std::string how_often_backtrack_is_wrong(const Answers& answers) {

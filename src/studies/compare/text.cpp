@@ -89,7 +89,7 @@ std::string left_out(const Comparison& comparison) {
 std::string price_cell(const Price& price, const ComparePlan& plan) {
   if (!price.ratio) return "-";
   const std::string step = price.dt ? fmt::format(" ({:.2g})", plan.in_free_times(*price.dt)) : "";
-  return two_digits(*price.ratio) + (price.extrapolated() ? "*" : "") + step;
+  return (price.at_most ? "≤ " : "") + two_digits(*price.ratio) + (price.extrapolated() ? "*" : "") + step;
 }
 
 /// Returns the table of prices: a row per method, a column per target.
@@ -110,8 +110,8 @@ std::string prices_of(const Answers& answers, const ComparePlan& plan) {
     table.add(cells);
   }
   return "\n  price: processor time over that of the exact engine, and in brackets the dt in mean free times\n" + table.text() +
-         "  *: extrapolated to a shorter dt than was run.  -: not reached, or not known from these runs (compare.json says "
-         "why)\n";
+         "  *: extrapolated to a shorter dt than was run.  ≤: with the longest dt that was run; a longer one may cost less.\n"
+         "  -: not reached, or not known from these runs (compare.json says why)\n";
 }
 
 }  // namespace
