@@ -56,6 +56,34 @@ TEST(LyapunovSpectrumOf, DifferentMassesIsPairedToo) {
   EXPECT_LT(found.pairing, 1e-6 * found.collision_rate);
 }
 
+/// Between two collisions of pairs, disks meet the obstacle many times, and each time differences grow several times.
+TEST(LyapunovSpectrumOf, SmallDisksRoundAnObstacleIsPairedToo) {
+  const Scene scene = parse_scene(R"(
+[box]
+x = [-1.0, 1.0]
+y = [-1.0, 1.0]
+boundary = "periodic"
+[[disks]]
+count = 4
+positions = "random"
+radius = 0.02
+mass = 1.0
+velocities = { temperature = 1.0 }
+[collision]
+rule = "specular"
+[[obstacles]]
+disk = { centre = [0.0, 0.0], radius = 0.5 }
+[run]
+time = 1.0
+)",
+                                  "obstacle.toml");
+  const LyapunovSpectrum found = spectrum_of(scene, 2000);
+  ASSERT_EQ(found.exponents.size(), 16U);
+  EXPECT_LT(found.pairing, 1e-6 * found.collision_rate);
+  EXPECT_LT(std::abs(found.exponents[7]), 0.01 * found.exponents[0]);  // energy, and the time at which it all began
+  EXPECT_GT(found.exponents[6], 0.05 * found.exponents[0]);
+}
+
 /// Reversible in time, and no Hamiltonian: pairs have the sum 0 in the limit alone.
 TEST(LyapunovSpectrumOf, ReversalIsPairedInTheLimit) {
   Scene scene = gas_scene(4, 0.4, Boundary::periodic);

@@ -239,6 +239,11 @@ Eigen::Matrix2Xd TangentFlow::dv() const {
   return all;
 }
 
+double TangentFlow::norm_of(std::int32_t i, double length, double speed) const {
+  const Disk& a = all_[static_cast<std::size_t>(i)];
+  return std::sqrt(a.dr.squaredNorm() / (length * length) + a.dv.squaredNorm() / (speed * speed));
+}
+
 double TangentFlow::norm(double length, double speed) const {
   double lengths = 0.0;
   double speeds = 0.0;

@@ -48,6 +48,9 @@ class TangentFlow {
   [[nodiscard]] Eigen::Matrix2Xd dr() const;
   [[nodiscard]] Eigen::Matrix2Xd dv() const;
 
+  /// Returns sqrt(|dr|^2 / length^2 + |dv|^2 / speed^2) of one disk, just after its last event.
+  [[nodiscard]] double norm_of(std::int32_t i, double length, double speed) const;
+
   /// Returns sqrt(sum |dr|^2 / length^2 + sum |dv|^2 / speed^2), after advance().
   [[nodiscard]] double norm(double length, double speed) const;
   void scale(double factor);

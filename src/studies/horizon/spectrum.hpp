@@ -34,9 +34,10 @@ struct SpectrumOptions {
 };
 
 /// Benettin's method (benettin1980) for all directions of the tangent space: 4 N vectors (TangentFlow) are made orthogonal by a
-/// QR decomposition every few collisions, and the logarithms of R's diagonal are averaged. Lengths and velocities are weighed by
-/// the masses, and vectors begin in an order in which the decomposition of a symplectic map is symplectic: exponents are then
-/// paired over any length of time, so that `pairing` tests the tangent map to rounding. The first fifth is left out.
+/// QR decomposition every few collisions, sooner where one of them has grown a hundredfold, and the logarithms of R's diagonal
+/// are averaged. Lengths and velocities are weighed by the masses, and vectors begin in an order in which the decomposition of a
+/// symplectic map is symplectic: exponents are then paired over any length of time, so that `pairing` tests the tangent map to
+/// rounding. The first fifth is left out.
 ///
 /// Empty where disks do not collide, too few collisions came, contacts dissipate energy, or the caller said stop. Requires at
 /// most most_disks_of_a_spectrum disks, and effects that TangentFlow knows. Throws as make_simulation.
