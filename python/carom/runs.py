@@ -279,11 +279,10 @@ def run(
             bool(report),
             bool(frames),
         )
-        on_progress = _progress_callback(given, report_fraction)
         if place is None:
-            return _result(given, None, _call_on_thread(call, on_progress, bool(own)))
+            return _result(given, None, _call_on_thread(call, report_fraction, bool(own)))
         with _sentences():
-            return _result(given, Path(place), _call_on_thread(_with_files(call), on_progress, bool(own)))
+            return _result(given, Path(place), _call_on_thread(_with_files(call), report_fraction, bool(own)))
 
 
 def resume(
@@ -315,11 +314,6 @@ def resume(
     from carom import _files
 
     with reporting(progress, "run") as report_fraction:
-        on_progress = (
-            None
-            if report_fraction is None
-            else lambda now, done, equilibrating: report_fraction(0.0 if time is None else min(1.0, now / time))
-        )
         own = _own(observables)
         place = path_text(directory, "directory")
         call = partial(
@@ -334,7 +328,7 @@ def resume(
             bool(report),
         )
         with _sentences():
-            parts = _call_on_thread(_with_files(call), on_progress, bool(own))
+            parts = _call_on_thread(_with_files(call), report_fraction, bool(own))
         scene = Scene.parse(json.loads(parts[0])["resolved_scene"])
         return _result(scene, Path(place), parts)
 
@@ -363,27 +357,27 @@ def _sentences() -> Iterator[None]:
 def _with_files(call: Callable[[Any], tuple[Any, ...]]) -> Callable[[Any], tuple[Any, ...]]:
     """Returns the call with HDF5 to itself, on whatever thread it is made: observables may use h5py there too."""
 
-    def guarded(on_progress: Any) -> tuple[Any, ...]:
+    def guarded(report_fraction: Any) -> tuple[Any, ...]:
         with hdf5():
-            return call(on_progress)
+            return call(report_fraction)
 
     return guarded
 
 
-def _call_on_thread(call: Callable[[Any], tuple[Any, ...]], on_progress: Any, has_own: bool) -> tuple[Any, ...]:
+def _call_on_thread(call: Callable[[Any], tuple[Any, ...]], report_fraction: Any, has_own: bool) -> tuple[Any, ...]:
     """Makes the call, on another thread where observables are written in Python. Python raises KeyboardInterrupt in the main thread
     alone, and in the middle of an observable it would lose the collisions at hand."""
-    if not has_own or threading.current_thread() is not threading.main_thread():
-        return call(on_progress)
-    from carom import _files
-
     raised: list[BaseException] = []  # by handlers of signals; they come out when the run has completed its files
     outcome: list[Any] = []
 
-    def callback(*progress: Any) -> bool:
-        if on_progress is not None:
-            on_progress(*progress)
+    def callback(fraction: float) -> bool:
+        if report_fraction is not None:
+            report_fraction(fraction)
         return not raised
+
+    if not has_own or threading.current_thread() is not threading.main_thread():
+        return call(None if report_fraction is None else callback)
+    from carom import _files
 
     def work() -> None:
         sys.settrace(threading.gettrace())  # the thread is not one of `threading`, which would do so for debuggers and coverage
@@ -415,18 +409,6 @@ def _seconds(walltime: float | str | None) -> float | None:
     if not seconds > 0:
         raise ValueError(f"walltime is {seconds:g} s; it must be positive")
     return seconds
-
-
-def _progress_callback(scene: Scene, report_fraction: Any) -> Any:
-    """Returns what the library calls with the time, the collisions and whether it equilibrates; None where nothing is reported."""
-    if report_fraction is None:
-        return None
-    end, collisions = scene._core.time, scene.to_dict()["run"].get("collisions")
-
-    def on_progress(now: float, done: int, equilibrating: bool) -> None:
-        report_fraction(0.0 if equilibrating else max(now / end if end else 0.0, done / collisions if collisions else 0.0))
-
-    return on_progress
 
 
 def _result(scene: Scene, directory: Path | None, parts: tuple[Any, ...]) -> Result:

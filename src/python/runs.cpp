@@ -41,12 +41,21 @@ struct RunWishes {
   bool report = false;
   bool frames = false;
   std::uint64_t verify_every = 0;  ///< events from one check of the invariants to the next; 0: no checks
-  nb::object progress;             ///< told time, collisions and whether it equilibrates; False from it stops the run; None
+  nb::object progress;             ///< told the fraction done; False from it stops the run; None
 };
 
-/// Tells `report` how far a run has come; returns whether it did not answer False. Requires the interpreter's lock.
-bool may_go_on(const nb::object& report, const Progress& progress) {
-  return report.is_none() || !report(progress.time, progress.totals.pair, progress.equilibrating).is(nb::handle(Py_False));
+/// Tells `report` which fraction of a run is done; returns whether it did not answer False. Requires the interpreter's lock.
+bool may_go_on(const nb::object& report, double fraction) {
+  return report.is_none() || !report(fraction).is(nb::handle(Py_False));
+}
+
+/// Returns the fraction of a run that is done, 0 while it equilibrates.
+double fraction_done(const Run& run, const Progress& progress) {
+  if (progress.equilibrating) return 0.0;
+  const double of_time = run.time.value_or(0.0) > 0.0 ? progress.time / *run.time : 0.0;
+  const double pairs = static_cast<double>(progress.totals.pair);
+  const double of_collisions = run.collisions.value_or(0) > 0 ? pairs / static_cast<double>(*run.collisions) : 0.0;
+  return std::min(1.0, std::max(of_time, of_collisions));
 }
 
 [[noreturn]] void throw_interrupt() {
@@ -56,9 +65,11 @@ bool may_go_on(const nb::object& report, const Progress& progress) {
 
 class PythonRun {
  public:
-  PythonRun(Simulation& simulation, const RunDirectory* directory, Provenance provenance, const RunWishes& wishes,
+  /// `run` has the end that the run is to reach.
+  PythonRun(Simulation& simulation, const Run& run, const RunDirectory* directory, Provenance provenance, const RunWishes& wishes,
             const Checkpoint* from = nullptr)
       : simulation_(simulation),
+        run_(run),
         wishes_(wishes),
         runner_(simulation, directory, std::move(provenance),
                 {.checkpoint_every = wishes.checkpoint_every,
@@ -125,7 +136,7 @@ class PythonRun {
     const nb::gil_scoped_acquire locked;
     try {
       if (PyErr_CheckSignals() != 0) throw nb::python_error();
-      if (!python::may_go_on(wishes_.progress, progress)) interrupted_ = true;
+      if (!python::may_go_on(wishes_.progress, fraction_done(run_, progress))) interrupted_ = true;
     } catch (nb::python_error& error) {
       if (!error.matches(PyExc_KeyboardInterrupt)) keep(std::current_exception());
       interrupted_ = true;
@@ -136,6 +147,7 @@ class PythonRun {
   }
 
   Simulation& simulation_;
+  const Run& run_;
   const RunWishes& wishes_;
   const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   Runner runner_;
@@ -173,11 +185,9 @@ AnyTuple run(const Scene& scene, const std::string& engine, const std::optional<
   }
   Simulation simulation = [&] {
     const nb::gil_scoped_release released;
-    Progress beginning;
-    beginning.equilibrating = true;
     const auto placing = [&](double) {
       look_at_python([&] {
-        if (!may_go_on(wishes.progress, beginning)) throw_interrupt();
+        if (!may_go_on(wishes.progress, 0.0)) throw_interrupt();
       });
     };
     Simulation made =
@@ -193,7 +203,7 @@ AnyTuple run(const Scene& scene, const std::string& engine, const std::optional<
                               .time_step = simulation.time_step(),
                               .stiffness = simulation.stiffness()};
   try {
-    return PythonRun(simulation, directory ? &*directory : nullptr, provenance, wishes)();
+    return PythonRun(simulation, scene.run, directory ? &*directory : nullptr, provenance, wishes)();
   } catch (...) {
     if (directory) directory->discard_if_empty();
     throw;
@@ -219,7 +229,7 @@ AnyTuple resume(const std::string& path, std::optional<double> time, std::option
   with_its_own.report = wishes.report || facts.report;
   with_its_own.verify_every = facts.verify;
   if (!wishes.checkpoint_every && !facts.checkpoint_every.empty()) with_its_own.checkpoint_every = facts.checkpoint_every;
-  return PythonRun(simulation, &resumed.directory, resumed.provenance(), with_its_own, &resumed.from)();
+  return PythonRun(simulation, resumed.scene.run, &resumed.directory, resumed.provenance(), with_its_own, &resumed.from)();
 }
 
 }  // namespace

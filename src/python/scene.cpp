@@ -58,7 +58,6 @@ void add_scene(nb::module_& module) {
       .def_prop_ro("count", &Scene::disk_count)
       .def_prop_ro("packing_fraction", &Scene::packing_fraction)
       .def_prop_ro("seed", [](const Scene& scene) { return scene.run.seed; })
-      .def_prop_ro("time", [](const Scene& scene) { return scene.run.time; })
       .def_prop_ro("sample_every", [](const Scene& scene) { return scene.run.sample_every; })
       .def_prop_ro("lower",
                    [](const Scene& scene) {

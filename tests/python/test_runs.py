@@ -379,7 +379,22 @@ def test_an_observable_may_write_with_h5py_while_the_run_writes_too(tmp_path, ga
 def test_progress_is_told(gas):
     told = []
     carom.run(gas.set({"run.time": 400.0, "run.sample_every": 100.0}), progress=told.append)
-    assert told == sorted(told) and all(0 <= fraction <= 1.0 + 1e-9 for fraction in told)
+    assert told == sorted(told) and all(0 <= fraction <= 1.0 for fraction in told)
+
+
+@pytest.mark.parametrize("end", [{}, {"time": 9000.0}, {"collisions": 5_000_000}], ids=["its own end", "a later time", "more collisions"])
+def test_progress_of_a_run_that_goes_on_is_that_of_the_whole_run(gas, tmp_path, end):
+    def interrupt(fraction):
+        if fraction > 0.0:
+            raise KeyboardInterrupt
+
+    with pytest.raises(carom.Interrupted) as stopped:
+        carom.run(gas.set({"run.time": 8000.0, "run.sample_every": 1000.0}), out=tmp_path / "run", progress=interrupt)
+    told = []
+    result = carom.resume(tmp_path / "run", progress=told.append, **end)
+    before = stopped.value.result
+    share = before.collisions / result.collisions if "collisions" in end else before.time / result.time
+    assert told == sorted(told) and told and share <= told[0] and told[-1] <= 1.0
 
 
 def test_runs_side_by_side_have_the_bits_of_one_after_the_other(gas, tmp_path):

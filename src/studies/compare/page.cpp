@@ -137,7 +137,7 @@ std::vector<KeyNumber> key_numbers(const Comparison& comparison, const Answers& 
         {fmt::format("{:.2f} ± {:.2f}", answers.order->value, answers.order->error), "order of the error of grid, fitted"});
   const HorizonRow* row = comparison.plan.horizon.row(comparison.plan.horizon.engine);
   if (row != nullptr && row->collisions_per_disk)
-    numbers.push_back({fmt::format("{:.0f}", *row->collisions_per_disk), "collisions per disk: horizon of double precision"});
+    numbers.push_back({fmt::format("{:.2g}", *row->collisions_per_disk), "collisions per disk: horizon of double precision"});
   return numbers;
 }
 

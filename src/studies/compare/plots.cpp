@@ -80,7 +80,7 @@ Plot error_in_time(const Comparison& comparison) {
           "Root-mean-square distance of the disks from the 113-bit trajectory, in mean diameters: median over the starts, and "
           "shaded the middle half of them. The level line is the distance at which the horizon of a precision ends, " +
           fmt::format("{:g} diameters.", plan.horizon.tolerance),
-      .x = {.title = "time (mean free times = collisions per disk)"},
+      .x = {.title = "time (mean free times)"},
       .y = {.title = "rms error of position (diameters)", .log = true}};
   for (const Method& method : methods_of(comparison)) {
     if (!speaks_for_others(plan, method)) continue;
@@ -108,7 +108,7 @@ Plot error_in_time(const Comparison& comparison) {
   if (*row->time <= plan.until()) {
     plot.marks.push_back({.axis = Mark::Across::x, .value = horizon, .label = "horizon of double precision"});
   } else {  // a line out there would leave the curves a corner of the plot
-    plot.caption += fmt::format(" The horizon of double precision lies beyond the end, at {:.3g} collisions per disk.", horizon);
+    plot.caption += fmt::format(" The horizon of double precision lies beyond the end, at {:.3g} mean free times.", horizon);
   }
   return plot;
 }
