@@ -165,7 +165,8 @@ class Simulation {
   /// that stop growing keep their size, and the radii of scene() are multiplied. When each disk last collided
   /// (Collision::elastic_below) is forgotten. The next redraw of the thermostat keeps its time, unless the rate changes. Takes
   /// the time of some hundred events per disk. Throws SceneError with the sentence of check() where the scene, as it would begin
-  /// now, is wrong: where an obstacle is put upon a disk, for instance; std::invalid_argument where the engine that was asked for
+  /// now, is wrong: where an obstacle is put upon a disk, for instance. How long the scene's run is to last is not asked: a wall
+  /// may be set in motion that would close the box before. Throws std::invalid_argument where the engine that was asked for
   /// does not cover it; std::logic_error for a fixed-step method, and within a hook of run_schedule(). Then nothing is changed.
   void set_effects(const Effects& effects);
 

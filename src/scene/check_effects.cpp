@@ -29,10 +29,9 @@ void check_exclusions(const Effects& effects) {
 
 void check_equilibration(const Scene& scene) {
   if (!scene.run.equilibrate) return;
-  for (const EffectTraits& effect : all_effects())
-    if (!effect.why_not_equilibrate.empty() && effect.acts(scene.effects))
-      throw Refusal(std::string(effect.name),
-                    fmt::format("{} and run.equilibrate cannot be combined; {}", effect.title, effect.why_not_equilibrate));
+  if (const EffectTraits* effect = first_not_equilibrated(scene.effects))
+    throw Refusal(std::string(effect->name),
+                  fmt::format("{} and run.equilibrate cannot be combined; {}", effect->title, effect->why_not_equilibrate));
 }
 
 void check_collision(const Collision& collision) {

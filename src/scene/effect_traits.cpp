@@ -450,6 +450,12 @@ const EffectTraits* first_acting(const Effects& effects, bool EffectTraits::*tra
   return nullptr;
 }
 
+const EffectTraits* first_not_equilibrated(const Effects& effects) {
+  for (const EffectTraits& effect : all_effects())
+    if (!effect.why_not_equilibrate.empty() && effect.acts(effects)) return &effect;
+  return nullptr;
+}
+
 bool all_acting(const Effects& effects, bool EffectTraits::*trait) {
   return std::ranges::all_of(all_effects(), [&](const EffectTraits& effect) { return effect.*trait || !effect.acts(effects); });
 }

@@ -94,6 +94,9 @@ struct EffectTraits {
   return first_acting(effects, trait) != nullptr;
 }
 
+/// The first effect that acts and does not go with run.equilibrate (why_not_equilibrate); null where none does.
+[[nodiscard]] const EffectTraits* first_not_equilibrated(const Effects& effects);
+
 /// Returns whether every effect that acts has a trait; true where none acts.
 [[nodiscard]] bool all_acting(const Effects& effects, bool EffectTraits::*trait);
 

@@ -95,6 +95,7 @@ void Simulation::Parts::go_on(Scene with, State state, CollisionFunction with_ru
       own_rule && effect != nullptr)
     throw std::invalid_argument(
         fmt::format("a collision rule of the program and {} cannot be combined; remove one of the two", effect->title));
+  if (detail::first_not_equilibrated(with.effects) != nullptr) with.run.equilibrate.reset();  // it is over
   settle(with, state);
   Start start = start_of(with, disks_of(with), state);
   require_between_walls(with, start.state);
@@ -162,7 +163,10 @@ void Simulation::set_effects(const Effects& effects) {
   scene.effects = effects;
   scene.effects.circle = circle;
   State state = parts_->engine->state();
-  check_going_on(begun_now(scene, state, parts_->oscillation_clocks(), parts_->engine_name == "textbook-float"), state);
+  Scene begun = begun_now(scene, state, parts_->oscillation_clocks(), parts_->engine_name == "textbook-float");
+  if (parts_->clock_began) begun.run.equilibrate.reset();
+  if (begun.run.time) begun.run.time = 0.0;  // until when it acts, the program says
+  check_going_on(begun, state);
   // Before anything changes: it throws where changes to come do not fit.
   Effects of_whole_run = parts_->whole ? detail::effects_of_whole_run(scene) : Effects{};
   parts_->go_on(std::move(scene), std::move(state), parts_->rule);

@@ -415,6 +415,41 @@ TEST(Changes, AreRefusedInTheWordsOfTheCheckAndLeaveAllAsItWas) {
   EXPECT_TRUE(same_bits(simulation.state(), untouched.state()));
 }
 
+TEST(Changes, MaySetInMotionWhatWouldCloseTheBoxBeforeTheEndOfTheRun) {
+  Scene scene = gas_scene(4, 0.2, Boundary::walls);
+  scene.run.time = 1000.0;
+  Simulation simulation = make_simulation(scene);
+  simulation.run_until(1.0);
+  Effects pushing = simulation.scene().effects;
+  pushing.walls[1].velocity = -0.125;
+  simulation.set_effects(pushing);
+  simulation.run_until(2.0);
+  simulation.set_effects(scene.effects);
+  EXPECT_EQ(simulation.scene().box.upper.x(), scene.box.upper.x() - 0.125);
+  simulation.set_effects(pushing);
+  EXPECT_EQ(simulation.run_until(1000.0), StopReason::jammed) << "the disks have no room at last";
+}
+
+/// Equilibrating belongs to the time before the clock is set to zero; what does not go with it may act afterwards.
+TEST(Changes, MayBringDragAndGrowthAfterTheEquilibration) {
+  Scene scene = gas_scene(20, 0.2, Boundary::periodic);
+  scene.run.equilibrate = Run::Equilibrate{.collisions_per_disk = {}, .time = 1.0};
+  for (const bool drag : {true, false}) {
+    Effects effects = scene.effects;
+    if (drag) effects.drag = Drag{0.125};
+    if (!drag) effects.growth = Growth{.rate = 0.0625};
+    Simulation simulation = make_simulation(scene);
+    EXPECT_THAT(refusal<SceneError>([&] { simulation.set_effects(effects); }), HasSubstr("run.equilibrate cannot be combined"));
+    simulation.run_until(1.0);
+    simulation.reset_clock();
+    simulation.set_effects(effects);
+    EXPECT_FALSE(simulation.scene().run.equilibrate) << "it is over, and the scene can begin another simulation";
+    Simulation twin = make_simulation(simulation.scene(), simulation.state());
+    EXPECT_EQ(simulation.run_until(0.5), twin.run_until(0.5));
+    EXPECT_TRUE(same_bits(simulation.state(), twin.state()));
+  }
+}
+
 TEST(Changes, AreRefusedWhereTheEngineAskedForDoesNotCoverThem) {
   Simulation simulation = make_simulation(gas_scene(24, 0.2, Boundary::walls), "fast");
   Effects effects = simulation.scene().effects;
