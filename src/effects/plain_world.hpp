@@ -21,7 +21,8 @@ struct BoundaryContact {
   Vec2<double> r;  ///< position of the disk
   double mass;
   double radius;
-  bool elastic;  ///< whether the contact loses no energy, whatever is hit (TC model)
+  double expansion;  ///< of the radius, with which contacts are planned; length / time
+  bool elastic;      ///< whether the contact loses no energy, whatever is hit (TC model)
 };
 
 struct PlainWorld {

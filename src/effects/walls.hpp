@@ -77,6 +77,9 @@ class Walls {
     /// The speed of which it took its share (effects/vanishing.hpp); infinite where it took none, and where the disk is pressed
     /// against it, so that contacts never end.
     Real smallness = infinity<Real>;
+    /// How long a disk that its weight presses to the side, and that leaves it with no speed (rebound()), may take to fall what
+    /// rounding has left between them: 2^-40 of its radius. 0 for other disks.
+    Real rest = 0;
   };
 
   /// The disk hits the side at time t: changes its velocity, and a piston's. `g` is the acceleration of the disk, `elastic`
@@ -92,7 +95,7 @@ class Walls {
     using std::max;
     const Real closing = max<Real>((outward + expansion) - surface, 0);
     Real after;
-    Real small = infinity<Real>, shear = 0, motion = surface;
+    Real small = infinity<Real>, shear = 0, rest = 0, motion = surface;
     if (s.temperature > 0) {
       RandomStream random(seed_, Stream::thermal_walls, 4 * draws_++ + index_of(wall));
       const DiffuseVelocity drawn = diffuse_velocity(random, s.temperature, static_cast<double>(mass));
@@ -104,6 +107,8 @@ class Walls {
       const Real restitution = elastic ? Real(1) : s.restitution, pressing = sign * g[axis] - s.acceleration_at(t);
       const Real parting = rebound<Real>(closing, restitution, pressing, radius);
       if (restitution < 1 && closing > 0 && !(pressing > 0)) small = smallness<Real>(closing, radius);
+      using std::sqrt;
+      if (restitution < 1 && pressing > 0 && parting == 0) rest = sqrt(Real(0x1p-39) * radius / pressing);
       after = (surface - expansion) - parting;
       if (s.mass > 0) {
         // Shares of the change of the relative velocity, by mass.
@@ -117,7 +122,15 @@ class Walls {
     }
     v[axis] = sign * after;
     const Real impulse = mass * (outward - after);
-    return {impulse, shear, mass * (before - v.squaredNorm()) / 2, impulse * motion + shear * s.sliding, small};
+    return {impulse, shear, mass * (before - v.squaredNorm()) / 2, impulse * motion + shear * s.sliding, small, rest};
+  }
+
+  /// Lets a disk that has left the side with no speed but that of its growing surface recede from it, where `expansion` is that
+  /// with which contacts are planned: they may differ by an ulp, and it would meet the side again and again at one instant.
+  void let_recede(Wall wall, Vec2<Real>& v, Real expansion, Real t) const {
+    const int axis = axis_of(wall);
+    const Real sign = is_upper(wall) ? 1 : -1, surface = side(wall).velocity_at(t);
+    if ((surface - sign * v[axis]) - expansion < 0) v[axis] = sign * (surface - expansion);
   }
 
   /// Returns whether the side moves by itself after a contact, which makes all predictions with it void.

@@ -53,8 +53,14 @@ struct AnyWorld {
     return !falling.present() && growth_ == 0.0 && !walls.any_moves() && !walls.any_moved();
   }
 
-  /// A disk meets a wall or an obstacle: changes its velocity and keeps count. Returns Walls::Hit::smallness.
-  double meet(std::int32_t what, const BoundaryContact& contact, Vec2<double>& v, double now, RunningTotals& totals) {
+  /// What a contact took from a disk: see Walls::Hit.
+  struct Loss {
+    double smallness = infinity<double>;
+    double rest = 0.0;
+  };
+
+  /// A disk meets a wall or an obstacle: changes its velocity and keeps count.
+  Loss meet(std::int32_t what, const BoundaryContact& contact, Vec2<double>& v, double now, RunningTotals& totals) {
     const double expansion = growth_ * contact.radius / scale(now), drag_factor = drag_.at(now);
     if (what <= first_obstacle) {
       ++totals.obstacle;
@@ -65,16 +71,17 @@ struct AnyWorld {
       else
         for (int k = 0; k < 2; ++k) totals.obstacle_impulse[static_cast<std::size_t>(k)].add(drag_factor * bounce.impulse[k]);
       if (bounce.energy != 0.0) totals.growth_energy.add(bounce.energy);
-      return infinity<double>;
+      return {};
     }
     const Wall wall = static_cast<Wall>(what);
     ++totals.wall;
     const auto hit = walls.meet(wall, v, falling.g, contact.mass, contact.radius, expansion, contact.elastic, now);
+    walls.let_recede(wall, v, contact.expansion, now);
     totals.wall_impulse[index_of(wall)].add(drag_factor * hit.impulse);
     if (hit.shear != 0.0) totals.wall_shear[index_of(wall)].add(drag_factor * hit.shear);
     totals.wall_energy[index_of(wall)].add(drag_factor * drag_factor * hit.energy);
     if (hit.work != 0.0) totals.wall_work[index_of(wall)].add(drag_factor * drag_factor * hit.work);
-    return hit.smallness;
+    return {hit.smallness, hit.rest};
   }
   /// Whether a contact changes the motion of this wall or obstacle: it is a piston.
   [[nodiscard]] bool is_movable(std::int32_t what) const {

@@ -80,6 +80,7 @@ void LoopState<Impact, Layout, World>::rebase(double now) {
 template <class Impact, class Layout, class World>
 void LoopState<Impact, Layout, World>::rebase_clock(double now) {
   last_collision_.rebase();
+  stall_.begin_epoch();
   ++totals_.numerics.epochs;
   if constexpr (!World::plain) flight_.fall(now);
   world_.rebase(now);

@@ -80,7 +80,10 @@ class EventLoop : public LoopState<Impact, Layout, World> {
 
   /// Processes the next event of all.
   [[gnu::flatten]] void step(std::int32_t i, double time) {
-    stall_.count_event(time > now_);
+    if constexpr (World::plain)
+      stall_.count_event(time > now_);
+    else
+      stall_.count_event(time, now_);
     now_ = std::max(now_, time);
     const Plan& mine = plans_[i];
     if (mine.edge_first()) {
@@ -154,11 +157,14 @@ class EventLoop : public LoopState<Impact, Layout, World> {
     const Line& a = line(i);
     Vec2<double> v = flight_.velocity(a, now_);
     const BoundaryContact contact{flight_.place(a, now_), layout_.mass(a), layout_.radius(a) * world_.scale(now_),
-                                  impact_.is_elastic(i, now_)};
-    if constexpr (World::plain)
+                                  layout_.radius(a) * world_.expansion(), impact_.is_elastic(i, now_)};
+    if constexpr (World::plain) {
       world_.meet(what, contact, v, now_, *counted_);
-    else
-      stall_.record_loss(world_.meet(what, contact, v, now_, *counted_), {id(i)});
+    } else {
+      const auto loss = world_.meet(what, contact, v, now_, *counted_);
+      stall_.record_loss(loss.smallness, {id(i)});
+      stall_.record_rest(now_, loss.rest);
+    }
     impact_.record_collision_time(i, now_);
     if (recorder_.logging()) recorder_.log_hit(now_, i, what, v);
     change_velocity(i, v);

@@ -24,6 +24,25 @@ class StallDetector {
 
   /// Counts an event, which is later than the event before it or at the same instant.
   void count_event(bool later) { at_one_instant_ = later ? 0 : at_one_instant_ + 1; }
+  /// Does so for an event at `time` where disks may come to rest on walls.
+  void count_event(double time, double now) {
+    const bool later = time > now && time > resting_until_;
+    if (later) rests_ = 0;
+    count_event(later);
+  }
+
+  /// Records that a disk has come to rest on a wall that its weight presses it to, by an event at `now` (Walls::Hit::rest): what
+  /// follows within `rest` of it is at one instant. Beside a wall that moves, rounding lets the disk fall by a step of its
+  /// coordinate again and again, and time with it.
+  void record_rest(double now, double rest) {
+    if (!(rest > 0.0)) return;
+    resting_until_ = now + rest;
+    ++rests_;
+  }
+  /// The number of record_rest() since time last advanced.
+  [[nodiscard]] std::uint64_t rests() const { return rests_; }
+  /// Begins an epoch, from which times count.
+  void begin_epoch() { resting_until_ = 0.0, rests_ = 0; }
 
   /// Whether the engine can go no further: time stands still, as for disks that touch on all sides and still are to move, or one
   /// of the functions below has found another reason.
@@ -61,7 +80,7 @@ class StallDetector {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(at_one_instant_, recorded_at_, slow_, cooled_, fault_);
+    archive(at_one_instant_, recorded_at_, resting_until_, rests_, slow_, cooled_, fault_);
   }
 
  private:
@@ -73,6 +92,8 @@ class StallDetector {
   bool may_cool_;                     ///< collisions take energy, and nothing brings it back by itself
   std::uint64_t at_one_instant_ = 0;  ///< events since time last advanced; `stalled` for any other reason
   std::uint64_t recorded_at_ = 0;     ///< what that was at the last record_loss() of a speed whose square vanishes
+  double resting_until_ = 0.0;        ///< time since the epoch
+  std::uint64_t rests_ = 0;
   std::vector<std::int32_t> slow_;
   bool cooled_ = false;
   std::string fault_;

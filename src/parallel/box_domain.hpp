@@ -88,7 +88,7 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   }
   /// Whether the domain has come to an event that it cannot process alone, or can go no further, or has run far more events than
   /// any window is to hold: disks that collide without end are found by the whole engine, which also looks at limits between.
-  [[nodiscard]] bool stopped() const { return stopped_ || stall_.is_stalled() || crowded_; }
+  [[nodiscard]] bool stopped() const { return stopped_ || stall_.is_stalled() || stall_.rests() > most_rests || crowded_; }
 
   /// The parts of domains that copy disks of this one, or have disks that this one copies.
   [[nodiscard]] const std::vector<std::size_t>& neighbours() const { return neighbours_; }
@@ -190,6 +190,8 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   using Loop::totals_, Loop::counted_, Loop::tuning_, Loop::pacing_, Loop::sizes_, Loop::stall_, Loop::stamp_, Loop::now_;
 
   enum class Role : std::uint8_t { empty, home, halo };
+  /// Disks that come to rest so many times at one instant are left to the whole engine, which counts the events of all parts.
+  static constexpr std::uint64_t most_rests = 1000;
   /// So many disks a message names at most, beside the one that it is about.
   static constexpr std::size_t most_named = 1 + std::tuple_size_v<decltype(StepsOfPairs::ids)>;
 

@@ -126,6 +126,52 @@ TEST(EnginesCollapse, ComesWhereTheWallAloneTakesEnergy) {
   }
 }
 
+/// Beside a wall that moves, coordinates are rounded to one step or the next, and a disk at rest falls that far again and again.
+TEST(EnginesCollapse, OfADiskAtRestOnAWallThatMovesEndsTheRunThere) {
+  const auto disk_above = [](double x, double restitution) {
+    Scene scene = scene_of_placed(box_of(4.0, 4.0, Boundary::walls), {{{x, 2.1}, {0.1, 0.05}}});
+    scene.effects.gravity = Gravity{{-0.3, 0.0}};
+    scene.effects.walls[0].restitution = restitution;
+    scene.run.time = 40.0;
+    return scene;
+  };
+  std::vector<Scene> scenes;
+  for (int k = 0; k < 6; ++k) {
+    Scene& saw = scenes.emplace_back(disk_above(1.5 + 0.037 * k, 0.5));
+    saw.effects.walls[0].oscillation = Oscillation{WaveForm::sawtooth, 0.0017, 0.53, 0.0};
+    Scene& sine = scenes.emplace_back(disk_above(1.5 + 0.037 * k, 0.5));
+    sine.effects.walls[0].oscillation = Oscillation{WaveForm::sine, 0.0017, 0.53, 0.0};
+    Scene& rising = scenes.emplace_back(disk_above(1.87 + 0.037 * k, 0.5));
+    rising.effects.walls[0].velocity = 0.01;
+    Scene& growing = scenes.emplace_back(disk_above(1.5 + 0.01 * k, 0.5));
+    growing.effects.growth = Growth{.rate = 0.0079};
+  }
+  for (const Scene& scene : scenes) {
+    double ends[2];
+    for (const int k : {0, 1}) {
+      Simulation simulation = make_simulation(scene, k == 0 ? "general" : "textbook");
+      EXPECT_EQ(run_schedule(simulation).stopped, StopReason::collapsed);
+      EXPECT_LT(simulation.totals().wall, 101'000U);
+      ends[k] = simulation.time();
+    }
+    EXPECT_NEAR(ends[0], ends[1], 1e-3);  // hops end in one where rounding has it, each shorter than the last
+  }
+}
+
+/// It leaves the wall with the speed at which its surface grows, and must not meet it again for an ulp.
+TEST(EnginesCollapse, IsNotWhereADiskGrowsAtAWallThatTakesAllOfItsSpeed) {
+  for (int k = 0; k < 100; ++k) {
+    Scene scene = scene_of_placed(box_of(10.0, 10.0, Boundary::walls), {{{2.0 + 0.06 * k, 5.0}, {1.0, 0.1}}});
+    scene.effects.walls[1].restitution = 0.0;
+    scene.effects.growth = Growth{.rate = 0.0043};
+    scene.run.time = 20.0;
+    Simulation simulation = make_simulation(scene, "general"), twin = make_simulation(scene, "textbook");
+    EXPECT_EQ(run_schedule(simulation).stopped, StopReason::time) << k;
+    EXPECT_EQ(run_schedule(twin).stopped, StopReason::time) << k;
+    EXPECT_LE(simulation.totals().wall, twin.totals().wall) << k;
+  }
+}
+
 TEST(EnginesCollapse, IsNotWhatALightDiskDoesToHeavyOnes) {
   // A disk of 1e-300 of the mass gives its neighbours 1e-300 of its speed: that is slow, and no collapse.
   for (const char* engine : engines_with_effects) {

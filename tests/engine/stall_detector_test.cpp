@@ -33,6 +33,27 @@ TEST(StallDetector, TimeStandsStillAfterSoManyEventsAtOneInstant) {
   EXPECT_TRUE(stall.stalled_disks().empty());
 }
 
+TEST(StallDetector, DisksThatRestStayAtOneInstantThoughTimeGoesOn) {
+  StallDetector stall(inelastic(), 0);
+  double now = 1.0;
+  const auto rest = [&](int times, double apart) {
+    for (int n = 0; n < times; ++n) {
+      stall.count_event(now + apart, now);
+      stall.record_rest(now += apart, 1e-6);
+    }
+  };
+  rest(200'000, 2e-6);  // longer than rounding accounts for: it is hit again and again
+  EXPECT_FALSE(stall.is_stalled());
+  EXPECT_EQ(stall.rests(), 1U);
+  rest(50'000, 3e-9);
+  stall.begin_epoch();  // times count from here, and so do rests
+  now = 0.0;
+  rest(100'000, 3e-9);
+  EXPECT_FALSE(stall.is_stalled());
+  rest(2, 3e-9);
+  EXPECT_TRUE(stall.is_stalled());
+}
+
 TEST(StallDetector, ElasticDisksMayHaveAHundredTimesAsManyEventsAtOneInstant) {
   StallDetector stall(Effects{}, 0);
   for (int n = 0; n < 10'000'000; ++n) stall.count_event(false);
