@@ -120,6 +120,7 @@ void LoopState<Impact, Layout, World>::choose_epoch_length(const SpeedSummary& s
   epoch_length_ = longest < 0x1p1000 ? std::ldexp(1.0, std::ilogb(longest)) : never;
   frame_.edge_step = epoch_length_ < never ? 0x1p-20 * epoch_length_ : 0.0;
   limits_.set_epoch_length(epoch_length_);
+  stall_.set_epoch_length(epoch_length_);
 }
 
 /// The longest epoch that the effects allow.

@@ -20,13 +20,15 @@ class StallDetector {
   /// `effects` and the number of disks decide after how many events at one instant time is taken to stand still.
   StallDetector(const Effects& effects, std::size_t disks)
       : patience_((effects.dissipate() ? 100'000 : 10'000'000) + 100 * static_cast<std::uint64_t>(disks)),
-        may_cool_(effects.dissipate() && effects.acceleration().isZero(0.0)) {}
+        dissipates_(effects.dissipate()),
+        may_cool_(dissipates_ && effects.acceleration().isZero(0.0)) {}
 
   /// Counts an event, which is later than the event before it or at the same instant.
   void count_event(bool later) { at_one_instant_ = later ? 0 : at_one_instant_ + 1; }
-  /// Does so for an event at `time` where disks may come to rest on walls.
+  /// Does so for an event at `time` where contacts may take energy. It is at the same instant where rounding alone keeps disks
+  /// apart that close in on each other, or a disk from the wall that it rests on.
   void count_event(double time, double now) {
-    const bool later = time > now && time > resting_until_;
+    const bool later = time > now + instant_ && time > resting_until_;
     if (later) rests_ = 0;
     count_event(later);
   }
@@ -43,6 +45,8 @@ class StallDetector {
   [[nodiscard]] std::uint64_t rests() const { return rests_; }
   /// Begins an epoch, from which times count.
   void begin_epoch() { resting_until_ = 0.0, rests_ = 0; }
+  /// Takes the length of the epoch, whose last ulps of time are one instant: coordinates are rounded by as much.
+  void set_epoch_length(double length) { instant_ = dissipates_ && length < infinity<double> ? 0x1p-50 * length : 0.0; }
 
   /// Whether the engine can go no further: time stands still, as for disks that touch on all sides and still are to move, or one
   /// of the functions below has found another reason.
@@ -80,7 +84,7 @@ class StallDetector {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(at_one_instant_, recorded_at_, resting_until_, rests_, slow_, cooled_, fault_);
+    archive(at_one_instant_, recorded_at_, instant_, resting_until_, rests_, slow_, cooled_, fault_);
   }
 
  private:
@@ -89,9 +93,11 @@ class StallDetector {
   static constexpr std::uint64_t series = 64;
 
   std::uint64_t patience_;            ///< events at one instant after which time is taken to stand still
+  bool dissipates_;                   ///< contacts take energy
   bool may_cool_;                     ///< collisions take energy, and nothing brings it back by itself
   std::uint64_t at_one_instant_ = 0;  ///< events since time last advanced; `stalled` for any other reason
   std::uint64_t recorded_at_ = 0;     ///< what that was at the last record_loss() of a speed whose square vanishes
+  double instant_ = 0.0;              ///< time within which events count as at one instant
   double resting_until_ = 0.0;        ///< time since the epoch
   std::uint64_t rests_ = 0;
   std::vector<std::int32_t> slow_;

@@ -54,6 +54,20 @@ TEST(StallDetector, DisksThatRestStayAtOneInstantThoughTimeGoesOn) {
   EXPECT_TRUE(stall.is_stalled());
 }
 
+TEST(StallDetector, TheLastUlpsOfAnEpochAreOneInstantWhereContactsTakeEnergy) {
+  for (const bool dissipate : {true, false}) {
+    StallDetector stall(dissipate ? inelastic() : Effects{}, 0);
+    stall.set_epoch_length(4.0);
+    const auto count = [&](double apart) {
+      for (int n = 0; n < 100'001; ++n) stall.count_event(1.0 + apart, 1.0);
+    };
+    count(0x1p-47);
+    EXPECT_FALSE(stall.is_stalled());
+    count(0x1p-48);
+    EXPECT_EQ(stall.is_stalled(), dissipate);
+  }
+}
+
 TEST(StallDetector, ElasticDisksMayHaveAHundredTimesAsManyEventsAtOneInstant) {
   StallDetector stall(Effects{}, 0);
   for (int n = 0; n < 10'000'000; ++n) stall.count_event(false);
