@@ -50,6 +50,7 @@ class NonGaussian final : public SavedObservable<NonGaussian> {
       some_are_bounds = alpha.put(table) || some_are_bounds;
     }
     note_lower_bounds(found, some_are_bounds);
+    note_moments(found, run_, step_);
     put_table(found, std::move(table));
     return found;
   }
@@ -102,6 +103,7 @@ class VanHove final : public SavedObservable<VanHove> {
     note_lower_bounds(found, std::ranges::any_of(densities_, [](const std::vector<BlockedColumn>& of_species) {
                         return std::ranges::any_of(of_species, &BlockedColumn::has_lower_bounds);
                       }));
+    note_moments(found, run_, step_);
     put_table(found, std::move(table), 1);
     return found;
   }

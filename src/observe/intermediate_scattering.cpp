@@ -124,6 +124,7 @@ class IntermediateScattering final : public SavedObservable<IntermediateScatteri
     bool some_are_bounds = false;
     for (const WaveNumber& number : numbers_) some_are_bounds = number.put_columns(table, run_) || some_are_bounds;
     note_lower_bounds(found, some_are_bounds);
+    note_moments(found, run_, step_);
     found.tables.push_back(std::move(table));
     return found;
   }

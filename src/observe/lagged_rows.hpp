@@ -5,6 +5,9 @@
 #include "observe/lagged_states.hpp"
 #include "observe/tracked_disks.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -72,6 +75,24 @@ struct LaggedColumn {
   Column lags{"lag", "time", {}};
   for (std::size_t row = first; row < end; ++row) lags.values.push_back(step * LaggedStates::lag(row));
   return lags;
+}
+
+/// Notes where all pairs of states of a lag lie at the same few moments between two redraws of [brownian], which come at equal
+/// steps: at lags of few redraws their mean is not that over time.
+inline void note_moments(Measurement& found, const ObservedRun& run, double step) {
+  const auto& brownian = run.scene.effects.brownian;
+  if (!brownian || !(brownian->rate > 0.0)) return;
+  constexpr int many = 16;  // moments, whose mean is that over time to some 1 / many^2
+  for (int moments = 1; moments < many; ++moments) {
+    const double redraws = moments * static_cast<double>(LaggedStates::apart) * step * brownian->rate;
+    if (std::abs(redraws - std::nearbyint(redraws)) > 1e-9 * redraws) continue;
+    if (!found.note.empty()) found.note += "; ";
+    found.note += fmt::format(
+        "at lags of few redraws of [brownian] this is no mean over time: states lie at {} between two of them; take every = "
+        "{:.4g}",
+        moments == 1 ? "one moment" : fmt::format("{} moments", moments), 0.93 * step);
+    return;
+  }
 }
 
 /// The disks that are followed, by species, and where they were.

@@ -52,8 +52,11 @@ class LaggedStates {
     archive(channels_, steps_, levels_);
   }
 
+  /// Pairs end at states of a level that are so many apart.
+  static constexpr std::size_t apart = 8;
+
  private:
-  static constexpr std::size_t lags = 16, apart = 8;
+  static constexpr std::size_t lags = 16;
 
   struct Level {
     std::vector<double> states;  ///< a ring

@@ -4,6 +4,7 @@
 
 #include "observe/blocking.hpp"
 #include "observe/equilibrium.hpp"
+#include "observe/lagged_rows.hpp"
 #include "observe/multiple_tau.hpp"
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"
@@ -84,6 +85,7 @@ class MeanSquareDisplacement final : public SavedObservable<MeanSquareDisplaceme
       if (run_.drifts_along(axis) && !run_.scene.box.periodic(1 - axis))
         add_note("disks drift with a flow that differs from place to place: only its mean is taken out");
     if (cover_starts && run_.disks.count() < few) add_note("errors of so few disks are up to 1.4 times too large");
+    note_moments(found, run_, step_);
     put_table(found, std::move(table));
     return found;
   }

@@ -59,6 +59,7 @@ class Overlap final : public SavedObservable<Overlap> {
     }
     if (is_part) found.note = "chi_4 is that of the followed disks alone; take disks = N for all";
     note_lower_bounds(found, some_are_bounds);
+    note_moments(found, run_, step_);
     put_table(found, std::move(table));
     return found;
   }

@@ -6,6 +6,7 @@
 #include "support/same_measurements.hpp"
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 #include <complex>
@@ -17,6 +18,9 @@
 
 namespace carom::test {
 namespace {
+
+using testing::HasSubstr;
+using testing::Not;
 
 constexpr double rounding_of_lags = 1e-11;
 
@@ -244,6 +248,25 @@ TEST(SlowObservedLags, OfFreeFlightAreThoseOfTheMicrocanonicalGas) {
 }
 
 /// F(k,0) is S(k): of the same states as the whole shell of a structure factor.
+/// All states are then at few moments between two redraws, which come at equal steps, and pairs at the same lag no mean over
+/// time.
+TEST(ObservedLags, AreNotedWhereTheyKeepStepWithBrownianRedraws) {
+  const std::vector<std::string> all = {"mean_square_displacement", "intermediate_scattering", "overlap", "non_gaussian",
+                                        "van_hove"};
+  const auto note_at = [&](double every, const std::string& name) {
+    std::string lines = "[brownian]\ntemperature = 1.0\nrate = 0.5\n[observe]\n";
+    for (const std::string& one : all) lines += fmt::format("{} = {{ every = {} }}\n", one, every);
+    std::string scene = periodic_mixture("");
+    scene.replace(scene.find("[observe]"), 9, lines);
+    return observe(parse_scene(scene), every).of(name).note;
+  };
+  for (const std::string& name : all) {
+    EXPECT_THAT(note_at(0.25, name), HasSubstr("states lie at one moment between two of them; take every = 0.2325")) << name;
+    EXPECT_THAT(note_at(0.3125, name), HasSubstr("states lie at 4 moments")) << name;
+    EXPECT_THAT(note_at(0.2325, name), Not(HasSubstr("moment"))) << name;
+  }
+}
+
 TEST(ObservedLags, ScatteringBeginsWithTheStructureFactor) {
   // In a square box of side L the four vectors near 2 pi / L are (1, 0), (1, 1), (0, 1) and (-1, 1), the first shell of S(k).
   const std::string scene = small_fluid("", "specular", "40.0");
