@@ -169,6 +169,7 @@ ExpectedCost Trial::run() {
   cost.trial_seconds = result.loop_seconds;
   cost.trial_collisions = simulation_.totals().pair;
   cost.trial_time = simulation_.time();
+  cost.changes = !scene_.changes.empty();
   if (result.stopped == StopReason::jammed || result.stopped == StopReason::collapsed || result.stopped == StopReason::overheated)
     cost.came_to_rest = to_string(result.stopped);
   const std::vector<Part> parts = parts_of(scene_);
@@ -231,19 +232,20 @@ std::string cost_words(const ExpectedCost& cost) {
     return fmt::format("{:.3g} collisions", collisions);
   };
   const std::string with = cost.observables > 0 ? fmt::format(" with {}", counted(cost.observables, "observable")) : "";
+  const std::string run = cost.changes ? "a trial run without the scene's changes" : "a trial run";
   if (cost.whole)
-    return fmt::format("{}{} on this machine for {} (a trial run reached the end)", duration(*cost.seconds), with,
-                       number_of(*cost.collisions));
+    return fmt::format("{}{} on this machine for {} ({} reached the end)", duration(*cost.seconds), with,
+                       number_of(*cost.collisions), run);
   const std::string trial = cost.trial_collisions > 0
-                                ? fmt::format("a trial run of {}: {} collisions per second", duration(cost.trial_seconds),
+                                ? fmt::format("{} of {}: {} collisions per second", run, duration(cost.trial_seconds),
                                               rate(static_cast<double>(cost.trial_collisions) / cost.trial_seconds))
-                                : fmt::format("a trial run of {} had no collision", duration(cost.trial_seconds));
+                                : fmt::format("{} of {} had no collision", run, duration(cost.trial_seconds));
   if (!cost.came_to_rest.empty())
     return fmt::format("unknown: {} by time {:.4g} ({})", cost.came_to_rest, cost.trial_time, trial);
   const std::string at_rest =
       cost.quickens ? fmt::format(
                           "; by time {:.4g} disks collide at ever shorter intervals, as where they come to rest: give "
-                          "collision.elastic_below, such as {{ time = 1e-3 }}",
+                          "collision.elastic_below a time that is short beside that from one collision of a disk to the next",
                           cost.trial_time)
                     : std::string();
   if (!cost.seconds) return fmt::format("unknown ({}{})", trial, at_rest);

@@ -23,6 +23,7 @@ struct ExpectedCost {
   bool quickens =
       false;  ///< disks that lose energy and fall collided ever more often in the trial, as they do when they come to rest
   bool whole = false;           ///< the trial came to the end of the run
+  bool changes = false;         ///< the scene has [[changes]], which no trial makes
   std::size_t observables = 0;  ///< number of observables that `seconds` includes
   std::string came_to_rest;     ///< why the trial ended early, "collapsed"; else empty
 };

@@ -95,6 +95,10 @@ TEST(CheckCommand, SaysWhatTheRunWillCost) {
               ContainsRegex("\n  cost        .* with 1 observable on this machine for .* collisions"));
   EXPECT_THAT(cost({"--set", "run.time=1e-9", "--set", "run.sample_every=1e-9", "--set", "run.equilibrate={ time = 0.0 }"}),
               HasSubstr(" on this machine for 0 collisions (a trial run reached the end)\n"));
+  const std::string changed = cost({"--set", "run.time=1e-3", "--set", "run.equilibrate={ time = 0.0 }", "--set",
+                                    "changes=[{time=1e-4, scale_velocities=2.0}]"});
+  EXPECT_THAT(changed, HasSubstr("(a trial run without the scene's changes reached the end)\n"));
+  EXPECT_THAT(changed, HasSubstr(", until a change asks for more; "));
   EXPECT_TRUE(fs::is_empty(directory.path()));
 }
 
