@@ -143,6 +143,24 @@ std::string what_temperature_counts(const Scene* scene) {
   return "kinetic";
 }
 
+/// Returns what Z counts: between walls collisions of disks alone, and then also what the walls feel.
+std::string where_Z_is_from(const RunReport& report, const Scene* scene) {
+  const std::string from = "from momentum transfer";
+  if (scene == nullptr || scene->effects.circle || (scene->box.periodic(0) && scene->box.periodic(1))) return from;
+  double pressures = 0.0;
+  int walls = 0;
+  const Eigen::Vector2d lengths = scene->box.lengths();
+  for (std::size_t side = 0; side < 4; ++side) {
+    const int axis = axis_of_wall(side);
+    if (scene->box.periodic(axis)) continue;
+    ++walls;
+    pressures += report.totals.wall_impulse[side] / (report.time * lengths[1 - axis]);
+  }
+  const double area_per_energy = scene->box.area() / (static_cast<double>(report.disks) * report.temperature_mean);
+  const double on_walls = pressures / walls * area_per_energy;
+  return std::isfinite(on_walls) ? fmt::format("{} between disks; on the walls it is {:.5g}", from, on_walls) : from;
+}
+
 void append(SummaryRows& rows, SummaryRows more) {
   for (SummaryRow& row : more) rows.push_back(std::move(row));
 }
@@ -193,8 +211,8 @@ std::string why_stopped(const RunReport& report, const Scene* scene) {
                          named(report.stopped_disks, "disks that"));
     case StopReason::collapsed:
       return fmt::format(
-          "collapsed: {} collide{} at ever shorter intervals and time stands still; give collision.elastic_below, such as "
-          "{{ time = 1e-6 }}, to go on",
+          "collapsed: {} collide{} at ever shorter intervals and time stands still; to go on, give collision.elastic_below a "
+          "time that is short beside that from one collision of a disk to the next",
           named(report.stopped_disks, "inelastic disks"), report.stopped_disks.size() == 1 ? "s" : "");
     case StopReason::overheated:
       return "overheated: disks become faster and faster, and time hardly advances; remove energy with [thermostat] or "
@@ -258,7 +276,7 @@ SummaryRows rows_of_results(const RunReport& report, const Scene* scene) {
   if (report.Z)
     rows.push_back({"Z = PA/(NkT)", report.Z_error ? with_error(*report.Z, *report.Z_error) : fmt::format("{:.5g}", *report.Z),
                     !report.Z_note.empty() ? report.Z_note
-                    : report.Z_error       ? "from momentum transfer"
+                    : report.Z_error       ? where_Z_is_from(report, scene)
                                            : "the run is too short for an error"});
   if (report.reduced_pressure) {
     const double reduced = *report.reduced_pressure;  // proportional to Z, and so is its error

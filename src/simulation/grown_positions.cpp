@@ -187,11 +187,11 @@ class Growing {
   }
 
   [[noreturn]] void refuse() const {
-    throw detail::scene_error(
-        scene_, where,
-        fmt::format("the disks jam at a packing fraction of {:.4f} on their way to {:.6g}; ask for less, or for "
-                    "positions = \"hexagonal\"",
-                    reached_, final_fraction_));
+    const auto [least, most] = std::minmax_element(disks_.radius.begin(), disks_.radius.end());
+    const bool one_size = *least == *most;  // a lattice takes the largest
+    throw detail::scene_error(scene_, where,
+                              fmt::format("the disks jam at a packing fraction of {:.4f} on their way to {:.6g}; ask for less{}",
+                                          reached_, final_fraction_, one_size ? ", or for positions = \"hexagonal\"" : ""));
   }
 
   static constexpr const char* where = "disks.0.positions";

@@ -4,6 +4,7 @@
 
 #include "io/hand_made_run.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -109,6 +110,19 @@ TEST_F(TerminalSummary, PressureHasTheErrorOfZInProportion) {
   EXPECT_THAT(text(), ContainsRegex("P sigma\\^2/kT +1\\.000 ± 0\\.050\n"));
   report_.Z_error.reset();
   EXPECT_THAT(text(), ContainsRegex("P sigma\\^2/kT +1\n"));
+}
+
+TEST_F(TerminalSummary, SaysWhatTheWallsFeelBesideZOfDisksAlone) {
+  report_.Z_error = 0.1;
+  report_.totals.wall_impulse = {30.0, 34.0, 31.0, 33.0};
+  report_.disks = 2;
+  scene_.box.boundary = {Boundary::walls, Boundary::walls};
+  const Eigen::Vector2d lengths = scene_.box.lengths();
+  const double pressure = (64.0 / lengths.y() + 64.0 / lengths.x()) / (2.0 * 2.0 * report_.time);
+  const std::string on_walls = fmt::format("{:.5g}", pressure * lengths.prod() / (2.0 * report_.temperature_mean));
+  EXPECT_THAT(text(), HasSubstr("from momentum transfer between disks; on the walls it is " + on_walls + "\n"));
+  scene_.box.boundary = {Boundary::periodic, Boundary::periodic};
+  EXPECT_THAT(text(), HasSubstr("from momentum transfer\n"));
 }
 
 TEST_F(TerminalSummary, SaysWhereZWasNotYetThatOfEquilibrium) {

@@ -116,10 +116,13 @@ TEST(DenseStart, OwesNothingToMassesVelocitiesAndEffects) {
 }
 
 TEST(DenseStart, ThatJamsSaysHowFarItCame) {
-  const Scene scene = dense(60, 0.89, Boundary::walls, Boundary::walls, 1.4);
-  const std::string sentence = refusal<SceneError>([&] { (void)draw_start(scene); });
-  EXPECT_THAT(sentence, HasSubstr("the disks jam at a packing fraction of 0."));
-  EXPECT_THAT(sentence, HasSubstr("on their way to 0.89; ask for less, or for positions = \"hexagonal\""));
+  for (const double ratio : {1.4, 1.0}) {
+    const Scene scene = dense(60, 0.89, Boundary::walls, Boundary::walls, ratio);
+    const std::string sentence = refusal<SceneError>([&] { (void)draw_start(scene); });
+    EXPECT_THAT(sentence, HasSubstr("the disks jam at a packing fraction of 0."));
+    EXPECT_THAT(sentence, HasSubstr("on their way to 0.89; ask for less"));
+    EXPECT_EQ(sentence.ends_with(", or for positions = \"hexagonal\""), ratio == 1.0) << "a lattice has room for the largest";
+  }
 }
 
 TEST(DenseStart, ThatWedgesADiskBetweenAWallAndAnObstacleIsRefused) {

@@ -65,9 +65,11 @@ std::string growth_words(const SideBySide& shown, const std::optional<Lyapunov>&
   const double time = 1.0 / lyapunov->per_time;
   return fmt::format(
              "{}, on average by a factor e in every Lyapunov time, here {:.3g} or {:.2g} collisions of a disk. So the curve "
-             "rises as a "
-             "straight line until disks have lost each other, and a step ten times shorter gains {:.3g} of time and no more.",
-             what, time, time * lyapunov->collision_rate, std::log(10.0) * time) +
+             "rises as a straight line until disks have lost each other{}.",
+             what, time, time * lyapunov->collision_rate,
+             finds_contacts(shown.step.method)
+                 ? std::string()  // it is right until a step is wrong
+                 : fmt::format(", and a step ten times shorter gains {:.3g} of time and no more", std::log(10.0) * time)) +
          (shown.parted_at() ? "" : " Here the two are still near each other at the end.");
 }
 
@@ -84,8 +86,11 @@ Json words_of(const SideBySide& shown, const Scene& scene, const std::optional<L
   const std::string step = shown.free_time > 0.0 ? fmt::format(" ({:.2g} mean free times)", shown.step.dt / shown.free_time) : "";
   return {{"what",
            fmt::format("{} from one start: left from collision to collision, each at its instant; right in steps of {:.3g}{}, "
-                       "with a look for contacts after each ({}).",
-                       counted(shown.disks.count(), "disk"), shown.step.dt, step, shown.step.method)},
+                       "{} ({}).",
+                       counted(shown.disks.count(), "disk"), shown.step.dt, step,
+                       shown.step.method == "swept" ? "with a search for the contacts within each"
+                                                    : "with a look for overlaps after each",
+                       shown.step.method)},
           {"growth", growth_words(shown, lyapunov)},
           {"window", no_longer.empty() ? "" : "S" + no_longer.substr(1) + "."},
           {"energy", energy_words(shown)}};
