@@ -5,6 +5,11 @@
 // Boost knows no periodic boxes. Images within a reach of the box are added. A corner of a cell is right if the circle around it
 // through the centre lies within that reach; where one does not, the reach is doubled.
 //
+// In flat boxes with wide gaps most of these images are of no use. A cell lies within that of its disk's own images, which are a
+// lattice: of no corner is it farther from the disk than half a box length along either axis. The same holds for the other cells
+// at that corner, so that neighbours are at most a box length away along either axis. Behind walls they are in the next box. In a
+// sheared box the two shortest steps of the lattice take the place of the axes.
+//
 // In a circle there are no images: cells without an end are cut off. The bisector to a neighbour is a chord of the circle, of
 // which the bisectors to the other neighbours leave a side or nothing. Where a side ends at the rim, an arc follows until the
 // next side begins there.
@@ -47,19 +52,31 @@ struct Image {
 /// The neighbours of each disk, in no order.
 using Neighbours = std::vector<std::vector<Image>>;
 
+/// Returns the number of boxes to a side whose images are within a reach.
+double boxes_within(const Box& box, double reach) {
+  return ((box.lengths().array() + 2.0 * reach) / box.lengths().array()).prod();
+}
+
 class Grid {
  public:
-  /// Requires a box whose walls enclose all centres.
-  Grid(const CellSpace& space, const Eigen::Matrix2Xd& positions, double reach) : box_(space.box) {
+  /// Adds all images within a reach or, without one, all that can be neighbours. Requires a box whose walls enclose all centres.
+  Grid(const CellSpace& space, const Eigen::Matrix2Xd& positions, std::optional<double> reach)
+      : box_(space.box), is_complete_(!reach) {
     constexpr double largest = 2.0e9;  // of an int32
     const Box& box = space.box;
-    const double unit = largest / (box.lengths().maxCoeff() + reach);
+    const double longest = box.lengths().maxCoeff(), farthest = space.displacement == 0.0 ? longest : 7.0 * longest;
+    const double unit = largest / (longest + reach.value_or(farthest));
     for (int axis = 0; axis < 2; ++axis) {
-      length_[static_cast<std::size_t>(axis)] = std::max<std::int64_t>(4, std::llround(unit * box.lengths()[axis]));
-      reach_[static_cast<std::size_t>(axis)] = std::floor(unit * reach);
+      const auto a = static_cast<std::size_t>(axis);
+      length_[a] = std::max<std::int64_t>(4, std::llround(unit * box.lengths()[axis]));
+      reach_[a] = reach ? std::floor(unit * *reach) : static_cast<double>(length_[a]);
     }
     displacement_ = std::llround(unit * space.displacement);
     for (Eigen::Index i = 0; i < positions.cols(); ++i) add(i, positions.col(i));
+    if (is_complete_ && displacement_ != 0) {
+      add_images_along_shortest_steps();
+      return;
+    }
     const std::size_t count = images_.size();
     std::array<std::int32_t, 2> boxes;
     for (std::size_t axis = 0; axis < 2; ++axis)
@@ -85,8 +102,10 @@ class Grid {
       if (first == nullptr) return std::nullopt;
       const auto* edge = first;
       do {
-        if (!edge->is_finite() || !is_covered(points_[i], *edge->vertex0())) return std::nullopt;
-        keep(i, images_[edge->twin()->cell()->source_index()], found[i]);
+        if (!edge->is_finite() || !(is_complete_ || is_covered(points_[i], *edge->vertex0()))) return std::nullopt;
+        Image image = images_[edge->twin()->cell()->source_index()];
+        for (std::size_t axis = 0; axis < 2; ++axis) image.shift[axis] -= images_[i].shift[axis];
+        keep(i, image, found[i]);
         edge = edge->next();
       } while (edge != first);
     }
@@ -95,6 +114,70 @@ class Grid {
   }
 
  private:
+  /// A step from an image to another, which is so many boxes to the right and above.
+  struct Step {
+    std::array<std::int64_t, 2> by;
+    std::array<std::int32_t, 2> boxes;
+    [[nodiscard]] std::int64_t dot(const std::array<std::int64_t, 2>& other) const { return by[0] * other[0] + by[1] * other[1]; }
+    /// Adds a number of other steps.
+    void add(std::int64_t number, const Step& other) {
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        by[axis] += number * other.by[axis];
+        boxes[axis] += static_cast<std::int32_t>(number) * other.boxes[axis];
+      }
+    }
+  };
+
+  /// Returns the two shortest steps, the shortest first (Gauss's reduction).
+  [[nodiscard]] std::array<Step, 2> shortest_steps() const {
+    Step a{{length_[0], 0}, {1, 0}}, b{{displacement_, length_[1]}, {0, 1}};
+    for (;;) {
+      b.add(-std::llround(static_cast<double>(a.dot(b.by)) / static_cast<double>(a.dot(a.by))), a);
+      if (b.dot(b.by) >= a.dot(a.by)) return {a, b};
+      std::swap(a, b);
+    }
+  }
+
+  /// Moves the disks into the parallelogram of the two shortest steps, and adds what is at most one of these steps away along
+  /// each.
+  void add_images_along_shortest_steps() {
+    const std::array<Step, 2> steps = shortest_steps();
+    const auto area = static_cast<double>(length_[0] * length_[1]);
+    const auto sign = steps[0].by[0] * steps[1].by[1] > steps[0].by[1] * steps[1].by[0] ? 1.0 : -1.0;
+    std::vector<Step> disks;
+    std::array<std::int64_t, 2> least{}, most{};  // along each of the steps
+    for (std::size_t i = 0; i < count_; ++i) {
+      Step disk{{points_[i].x(), points_[i].y()}, {}};
+      const auto share = [&](std::size_t of) {
+        const std::array<std::int64_t, 2>& other = steps[1 - of].by;
+        const auto cross = static_cast<double>(disk.by[0] * other[1] - disk.by[1] * other[0]);
+        return std::llround(std::floor((of == 0 ? sign : -sign) * cross / area));
+      };
+      const std::array<std::int64_t, 2> whole = {share(0), share(1)};
+      for (std::size_t k = 0; k < 2; ++k) disk.add(-whole[k], steps[k]);
+      for (std::size_t k = 0; k < 2; ++k) {
+        const std::int64_t along = steps[k].dot(disk.by), square = steps[k].dot(steps[k].by);
+        least[k] = i == 0 ? along - square : std::min(least[k], along - square);
+        most[k] = i == 0 ? along + square : std::max(most[k], along + square);
+      }
+      disks.push_back(disk);
+    }
+    images_.clear(), points_.clear();
+    const auto put = [&](std::size_t i, const Step& image) {
+      images_.push_back({static_cast<std::int32_t>(i), image.boxes});
+      points_.emplace_back(static_cast<std::int32_t>(image.by[0]), static_cast<std::int32_t>(image.by[1]));
+    };
+    for (std::size_t i = 0; i < count_; ++i) put(i, disks[i]);
+    for (std::int64_t m = -2; m <= 2; ++m)
+      for (std::int64_t n = -2; n <= 2; ++n)
+        for (std::size_t i = 0; i < count_ && (m != 0 || n != 0); ++i) {
+          Step image = disks[i];
+          image.add(m, steps[0]), image.add(n, steps[1]);
+          const std::array<std::int64_t, 2> along = {steps[0].dot(image.by), steps[1].dot(image.by)};
+          if (along[0] >= least[0] && along[0] <= most[0] && along[1] >= least[1] && along[1] <= most[1]) put(i, image);
+        }
+  }
+
   /// Requires a centre in the box.
   void add(Eigen::Index i, const Eigen::Vector2d& centre) {
     std::array<std::int64_t, 2> at{};
@@ -152,6 +235,7 @@ class Grid {
   std::array<std::int64_t, 2> length_{};  ///< of the box
   std::int64_t displacement_ = 0;         ///< of the images above
   std::array<double, 2> reach_{};
+  bool is_complete_;           ///< whether every image that can be a neighbour is among the points
   std::size_t count_ = 0;      ///< of disks
   std::vector<Image> images_;  ///< the disks themselves come first
   std::vector<GridPoint> points_;
@@ -339,9 +423,15 @@ class CellInCircle {
 };
 
 Neighbours neighbours_of(const CellSpace& space, const Eigen::Matrix2Xd& positions) {
-  const double spacing = std::sqrt(space.box.area() / static_cast<double>(positions.cols()));
-  for (double reach = 4.0 * spacing;; reach *= 2.0)
+  const auto count = static_cast<double>(positions.cols());
+  const double spacing = std::sqrt(space.box.area() / count);
+  constexpr double few = 2'000.0, boxes_that_matter = 9.0;
+  for (double reach = 4.0 * spacing; count * boxes_within(space.box, reach) <= std::max(few, boxes_that_matter * count);
+       reach *= 2.0)
     if (std::optional<Neighbours> found = Grid(space, positions, reach).neighbours()) return std::move(*found);
+  std::optional<Neighbours> found = Grid(space, positions, std::nullopt).neighbours();
+  if (!found) throw std::logic_error("a Voronoi cell has no end");
+  return std::move(*found);
 }
 
 }  // namespace

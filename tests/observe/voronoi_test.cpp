@@ -92,13 +92,14 @@ double area_with_arcs(const CutCell& cell, double radius) {
   return area;
 }
 
-std::vector<CutCell> cut_cells(const Box& box, const Eigen::Matrix2Xd& positions, double displacement = 0.0) {
-  const int reach = displacement == 0.0 ? 3 : 6;
+/// In a sheared box the images of so many boxes above and below cut, and of each those that are near in x.
+std::vector<CutCell> cut_cells(const Box& box, const Eigen::Matrix2Xd& positions, double displacement = 0.0, int rows = 3) {
+  const int reach = displacement == 0.0 || rows > 3 ? 3 : 6;
   if (box.is_circle) return cut_cells_in_circle(box, positions);
   std::vector<CutCell> cells;
   for (Eigen::Index i = 0; i < positions.cols(); ++i) {
     CutCell cell;
-    const Eigen::Vector2d self = positions.col(i), far = 2.0 * box.lengths();
+    const Eigen::Vector2d self = positions.col(i), far = (rows > 3 ? rows : 2.0) * box.lengths();
     const Eigen::Vector2d low(box.periodic(0) ? -far.x() : box.lower.x() - self.x(),
                               box.periodic(1) ? -far.y() : box.lower.y() - self.y());
     const Eigen::Vector2d high(box.periodic(0) ? far.x() : box.upper.x() - self.x(),
@@ -107,13 +108,15 @@ std::vector<CutCell> cut_cells(const Box& box, const Eigen::Matrix2Xd& positions
     cell.add({high.x(), low.y()}, -1, {2.0 * high.x(), 0.0});
     cell.add(high, -1, {0.0, 2.0 * high.y()});
     cell.add({low.x(), high.y()}, -1, {2.0 * low.x(), 0.0});
-    for (int x = box.periodic(0) ? -reach : 0; x <= (box.periodic(0) ? reach : 0); ++x)
-      for (int y = box.periodic(1) ? -3 : 0; y <= (box.periodic(1) ? 3 : 0); ++y)
+    for (int y = box.periodic(1) ? -rows : 0; y <= (box.periodic(1) ? rows : 0); ++y) {
+      const int back = rows > 3 ? static_cast<int>(std::lround(y * displacement / box.lengths().x())) : 0;
+      for (int x = box.periodic(0) ? -reach - back : 0; x <= (box.periodic(0) ? reach - back : 0); ++x)
         for (Eigen::Index j = 0; j < positions.cols(); ++j) {
           if (j == i && x == 0 && y == 0) continue;
           const Eigen::Vector2d shift(x * box.lengths().x() + y * displacement, y * box.lengths().y());
           cell.cut(static_cast<std::int32_t>(j), positions.col(j) - self + shift);
         }
+    }
     cells.push_back(cell);
   }
   return cells;
@@ -130,10 +133,10 @@ Eigen::Matrix2Xd random_points(const Box& box, Eigen::Index count, std::uint64_t
   return positions;
 }
 
-void expect_cells_by_cutting(const Box& box, const Eigen::Matrix2Xd& positions, double displacement = 0.0) {
+void expect_cells_by_cutting(const Box& box, const Eigen::Matrix2Xd& positions, double displacement = 0.0, int rows = 3) {
   constexpr double rounding = 1e-9;  // corners are far away where centres are nearly on a line
   const VoronoiCells cells(box, positions, displacement);
-  const std::vector<CutCell> twins = cut_cells(box, positions, displacement);
+  const std::vector<CutCell> twins = cut_cells(box, positions, displacement, rows);
   ASSERT_EQ(cells.count(), twins.size());
   for (std::size_t i = 0; i < twins.size(); ++i) {
     EXPECT_NEAR(cells.area(i), twins[i].area(), rounding * box.area());
@@ -168,6 +171,44 @@ TEST(VoronoiCells, OfAShearedBoxAreThoseOfImagesThatAreDisplaced) {
   for (const double displacement : {0.3, 2.6, 4.999, -1.7})
     for (const Eigen::Index count : {1, 2, 3, 7, 40})
       expect_cells_by_cutting(box, random_points(box, count, static_cast<std::uint64_t>(count)), displacement);
+}
+
+/// Returns points in the first tenth of a box along x.
+Eigen::Matrix2Xd gathered_points(const Box& box, Eigen::Index count, std::uint64_t seed) {
+  Box tenth = box;
+  tenth.upper.x() = box.lower.x() + 0.1 * box.lengths().x();
+  return random_points(tenth, count, seed);
+}
+
+/// Circles around corners in the gap are far larger than the box is high.
+TEST(VoronoiCells, OfFlatBoxesWithAGapAreThoseThatOneCutAfterTheOtherLeaves) {
+  for (const Boundary x : {Boundary::periodic, Boundary::walls})
+    for (const Boundary y : {Boundary::periodic, Boundary::walls})
+      for (const Eigen::Index count : {2, 7, 60}) {
+        const Box box{{-2.0, 1.0}, {998.0, 4.0}, {x, y}};
+        expect_cells_by_cutting(box, gathered_points(box, count, static_cast<std::uint64_t>(count)));
+      }
+}
+
+TEST(VoronoiCells, OfShearedFlatBoxesWithAGapAreThoseOfImagesThatAreDisplaced) {
+  const Box box{{-2.0, 1.0}, {298.0, 4.0}, {Boundary::periodic, Boundary::periodic}};
+  for (const double displacement : {0.1, 10.7, 121.3, 299.2, -77.7})
+    for (const Eigen::Index count : {1, 2, 12})
+      expect_cells_by_cutting(box, gathered_points(box, count, static_cast<std::uint64_t>(count)), displacement, 120);
+}
+
+/// With images in all directions as far as the gap is wide there would be billions of them.
+TEST(VoronoiCells, OfExtremelyFlatBoxesTakeNoLongerThanOthers) {
+  for (const double displacement : {0.0, 0.3, 1234.5, 4e5})
+    for (const int upright : {0, 1}) {
+      Box box{{0.0, 0.0}, {1e6, 3.0}, {Boundary::periodic, Boundary::periodic}};
+      Eigen::Matrix2Xd positions = gathered_points(box, 80, 1);
+      if (upright == 1) std::swap(box.upper.x(), box.upper.y()), positions.row(0).swap(positions.row(1));
+      const VoronoiCells cells(box, positions, upright == 1 ? 1e-6 * displacement : displacement);
+      double area = 0.0;
+      for (std::size_t i = 0; i < cells.count(); ++i) area += cells.area(i);
+      EXPECT_NEAR(area, box.area(), 1e-6 * box.area()) << displacement;
+    }
 }
 
 /// A displacement of whole box lengths displaces nothing.
