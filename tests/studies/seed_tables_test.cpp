@@ -76,6 +76,16 @@ TEST(ValueAt, IsOnAStraightLineBetweenTheRowsAround) {
   EXPECT_EQ(value_at(seed_table({1, 1, 2}, {1, 2, 3}), "x", {1.5}), std::nullopt) << "cells of a grid are no curve";
 }
 
+TEST(ValueAt, OfSizesIsThatOfTheRowThatContainsTheSize) {
+  const Table table = {
+      .name = "clusters",
+      .columns = {{"size", "", {1, 2, 4}}, {"size_to", "", {1, 3, 6}}, {"clusters_per_disk", "", {0.5, 0.2, 0.1}}}};
+  const std::vector<double> of_sizes = {0.5, 0.2, 0.2, 0.1, 0.1, 0.1};
+  for (std::size_t k = 0; k < of_sizes.size(); ++k)
+    EXPECT_EQ(value_at(table, "clusters_per_disk", {static_cast<double>(k + 1)}), of_sizes[k]) << k + 1;
+  for (const double absent : {0.0, 7.0}) EXPECT_EQ(value_at(table, "clusters_per_disk", {absent}), std::nullopt) << absent;
+}
+
 TEST(ValueAt, OfCellsIsThatOfTheCellThatContainsThePlace) {
   // Three cells along x from 0 to 0.3, two along y from 0 to 2.
   const Table cells = {.name = "cells",

@@ -276,11 +276,12 @@ TEST_F(SweepReader, AColumnThatATableHasNotIsToldItsColumns) {
 
 TEST_F(SweepReader, ColumnsThatSayWhichRowItIsAreNoNumbers) {
   const auto at = [&](const std::string& name) {
-    return files_.refusal(scene_line + "table = [\"observables." + name + "\"]\n[set]\nrun.time = 4.0\n" +
-                          "observe = { fields = { cells = [4, 3] }, viscosity = true, velocity_autocorrelation = true }\n");
+    return files_.refusal(
+        scene_line + "table = [\"observables." + name + "\"]\n[set]\nrun.time = 4.0\n" +
+        "observe = { fields = { cells = [4, 3] }, viscosity = true, velocity_autocorrelation = true, clusters = true }\n");
   };
   for (const char* name : {"fields.x@1,1", "fields.y@1,1", "fields_in_time.y@1,1,1", "fields_in_time.time@1,1,1",
-                           "viscosity.integral_to@1", "velocity_autocorrelation.window@1"})
+                           "viscosity.integral_to@1", "velocity_autocorrelation.window@1", "clusters.size_to@2"})
     EXPECT_THAT(at(name),
                 AllOf(HasSubstr("says which row it is; its others, each at a value of "), Not(HasSubstr("integral_to,"))))
         << name;

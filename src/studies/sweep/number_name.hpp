@@ -14,9 +14,9 @@ inline constexpr std::string_view observables_prefix = "observables.";
 /// First columns that count something. There is nothing between two rows.
 inline constexpr std::array<std::string_view, 2> counting_columns = {"neighbours", "size"};
 
-/// Returns whether a column of a table says which row it is: of a lag, a time, or a cell.
+/// Returns whether a column of a table says which row it is: of a lag, a time, a cell, or sizes.
 inline bool is_place(std::string_view column) {
-  static constexpr std::array<std::string_view, 6> places = {"lag", "time", "x", "y", "window", "integral_to"};
+  static constexpr std::array<std::string_view, 7> places = {"lag", "time", "x", "y", "window", "integral_to", "size_to"};
   return std::ranges::find(places, column) != places.end();
 }
 

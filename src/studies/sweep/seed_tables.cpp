@@ -112,6 +112,8 @@ bool is_curve(const Table& table) {
   return !x.empty() && std::adjacent_find(x.begin(), x.end(), std::greater_equal<>()) == x.end();
 }
 
+const Column* last_in_rows(const Table& table) { return find_column(table, table.columns.front().name + "_to"); }
+
 std::vector<std::string> key_columns(const Table& table) {
   std::vector<std::string> names = {table.columns.front().name};
   if (is_curve(table)) return names;
@@ -135,6 +137,14 @@ std::optional<double> value_on_curve(const std::vector<double>& x, const std::ve
   return (1.0 - share) * y[k - 1] + share * y[k];
 }
 
+/// Returns the value of the row that goes from a number to another, both included, and contains `at`.
+std::optional<double> value_of_range(const std::vector<double>& from, const std::vector<double>& to, const std::vector<double>& y,
+                                     double at) {
+  for (std::size_t k = 0; k < from.size(); ++k)
+    if (at >= from[k] && at <= to[k]) return y[k];
+  return {};
+}
+
 }  // namespace
 
 std::optional<double> value_at(const Table& table, const std::string& column, const std::vector<double>& at) {
@@ -143,6 +153,8 @@ std::optional<double> value_at(const Table& table, const std::string& column, co
   std::optional<double> value;
   if (at.size() > 1) {
     if (const std::optional<std::size_t> row = row_of_cell(table, at)) value = values->values[*row];
+  } else if (const Column* const to = last_in_rows(table); to != nullptr) {
+    value = value_of_range(table.columns.front().values, to->values, values->values, at.front());
   } else if (is_curve(table)) {
     value = value_on_curve(table.columns.front().values, values->values, at.front());
   }

@@ -20,13 +20,18 @@ namespace carom {
 /// Returns whether the rows of a table are points of a curve, in the order of its first column: cells of a grid are not.
 [[nodiscard]] bool is_curve(const Table& table);
 
+/// Returns the column of the last value that belongs to each row, where a row begins with the value of the first column:
+/// "size_to" beside "size"; null where a row has one value.
+[[nodiscard]] const Column* last_in_rows(const Table& table);
+
 /// Returns the names of the columns that say which row of a table it is: the first, and of cells of a grid "x" and "y" after it.
 [[nodiscard]] std::vector<std::string> key_columns(const Table& table);
 
 /// Returns the number in `column` of a table where the first columns have the values `at`. On a curve that is on a straight line
 /// between the two rows around one value; that of a column of errors is an upper bound, because errors of neighbouring rows are
-/// correlated. Of cells it is the number of the cell that contains the place; an edge belongs to the cell right of or above it.
-/// Nothing where the table has no such column, ends before, is no curve for one value, or has no number there.
+/// correlated. Of rows from a size to another it is that of the row that contains the value. Of cells it is the number of the
+/// cell that contains the place; an edge belongs to the cell right of or above it. Nothing where the table has no such column,
+/// ends before, is no curve for one value, or has no number there.
 [[nodiscard]] std::optional<double> value_at(const Table& table, const std::string& column, const std::vector<double>& at);
 
 /// Returns the table of means over tables of the same columns, row by row. Columns that come with errors, and others that differ,
