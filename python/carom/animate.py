@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import copy
+import math
+from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from carom._arguments import real, whole
+from carom.simulation import _put
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -17,10 +21,14 @@ if TYPE_CHECKING:
     from carom.simulation import Simulation
 
 
-class _Picture:
-    """A box with its disks, drawn in units of the scene."""
+#: Of obstacles.
+_SOLID = "0.35"
 
-    def __init__(self, scene: Scene, radii: Floats, species: npt.NDArray[np.int32], color: str, trail: int = 0) -> None:
+
+class _Picture:
+    """A box with its obstacles and disks, drawn in units of the scene. What sticks out of a periodic edge is on the other side too."""
+
+    def __init__(self, scene: Scene, species: npt.NDArray[np.int32], color: str, trail: int = 0) -> None:
         import matplotlib.pyplot as plt
         from matplotlib.collections import EllipseCollection, LineCollection
         from matplotlib.patches import Circle
@@ -35,34 +43,64 @@ class _Picture:
             centre, radius = scene.circle
             axes.axis("off")
             axes.add_patch(Circle(centre, radius, fill=False, clip_on=False))
-        self.half = np.array([x1 - x0, y1 - y0]) / 2
+        self.middle, self.half, self.periodic = np.array([x0 + x1, y0 + y1]) / 2, np.array([x1 - x0, y1 - y0]) / 2, scene.periodic
         self.color, self.trail, self.past = color, trail, list[Any]()
         self.trails = LineCollection([], linewidths=0.8, colors="0.6")
         axes.add_collection(self.trails)
-        widths = 2 * radii
-        self.disks = EllipseCollection(
-            widths, widths, np.zeros_like(widths), units="xy", offsets=np.zeros((len(radii), 2)), offset_transform=axes.transData
+        self.lines = LineCollection([], linewidths=2.0, colors=_SOLID)
+        axes.add_collection(self.lines)
+        self.posts, self.disks = (
+            EllipseCollection([], [], 0.0, units="xy", offsets=np.empty((0, 2)), offset_transform=axes.transData) for _ in range(2)
         )
+        self.posts.set_facecolor(_SOLID)
+        axes.add_collection(self.posts)
+        self.species = species
         if color == "speed":
             self.disks.set_cmap("viridis")
         elif color == "species":
             self.disks.set_cmap("tab10")
-            self.disks.set_array(species.astype(float))
             self.disks.set_clim(0, 9)
         else:
             self.disks.set_facecolor(color)
         axes.add_collection(self.disks)
         self.clock = axes.text(0.01, 0.99, "", transform=axes.transAxes, va="top", fontsize="small")
 
-    def show(self, time: float, positions: Floats, velocities: Floats | None, radii: Floats) -> tuple[Any, ...]:
+    def _images(self, places: Floats, radii: Floats, displacement: float = 0.0) -> tuple[npt.NDArray[np.intp], Floats]:
+        """Returns the numbers of disks and where they are, these disks first, then those images of them that reach into the box. Images
+        above are `displacement` to the right."""
+        numbers, found = [np.arange(len(places))], [places]
+        for right, up in product(range(-2, 3) if self.periodic[0] else (0,), (-1, 0, 1) if self.periodic[1] else (0,)):
+            if right == up == 0:
+                continue
+            shifted = places + [2 * right * self.half[0] + up * displacement, 2 * up * self.half[1]]
+            seen = (np.abs(shifted - self.middle) < self.half + radii[:, None]).all(axis=1)
+            numbers.append(np.flatnonzero(seen))
+            found.append(shifted[seen])
+        return np.concatenate(numbers), np.concatenate(found)
+
+    def set_obstacles(self, obstacles: list[dict[str, Any]]) -> None:
+        """Draws these obstacles, tables of the scene format."""
+        posts = [entry["disk"] for entry in obstacles if "disk" in entry]
+        radii = np.array([post["radius"] for post in posts])
+        numbers, places = self._images(np.array([post["centre"] for post in posts]).reshape(-1, 2), radii)
+        self.posts.set(offsets=places, widths=2 * radii[numbers], heights=2 * radii[numbers])
+        lines = [np.array([line["from"], line["to"]]) for entry in obstacles if (line := entry.get("segment"))]
+        for arc in (entry["arc"] for entry in obstacles if "arc" in entry):
+            angles = np.radians(np.linspace(arc["from"], arc["to"], 181))
+            lines.append(arc["centre"] + arc["radius"] * np.stack([np.cos(angles), np.sin(angles)], axis=1))
+        self.lines.set_segments(lines)
+
+    def show(self, time: float, positions: Floats, velocities: Floats | None, radii: Floats, displacement: float) -> tuple[Any, ...]:
         """Moves the disks; returns what has changed."""
-        self.disks.set_offsets(positions)
-        self.disks.set(widths=2 * radii, heights=2 * radii)
+        numbers, places = self._images(positions, radii, displacement)
+        self.disks.set(offsets=places, widths=2 * radii[numbers], heights=2 * radii[numbers])
         if self.color == "speed" and velocities is not None:
             speeds = np.hypot(velocities[:, 0], velocities[:, 1])
-            self.disks.set_array(speeds)
+            self.disks.set_array(speeds[numbers])
             if self.disks.norm.vmax is None:
                 self.disks.set_clim(0, 2.5 * float(np.sqrt((speeds**2).mean())) or 1.0)
+        elif self.color == "species":
+            self.disks.set_array(self.species[numbers].astype(float))
         if self.trail:
             self.past = [*self.past[-self.trail :], np.array(positions)]
             paths = np.swapaxes(np.array(self.past), 0, 1)
@@ -71,7 +109,27 @@ class _Picture:
             paths[:, 1:][jumps] = np.nan
             self.trails.set_segments(list(paths))
         self.clock.set_text(f"t = {time:.4g}")
-        return self.trails, self.disks, self.clock
+        return self.trails, self.disks, self.clock, self.lines, self.posts
+
+
+def _obstacles_in_time(scene: Scene) -> list[tuple[float, list[dict[str, Any]]]]:
+    """Returns the obstacles of a scene, and those after each of its changes, with the time after which they are there."""
+    import tomllib
+
+    tables = scene.to_dict()
+    acting = {"obstacles": tables.get("obstacles", [])}
+    history = [(-math.inf, acting["obstacles"])]
+    for change in tables.get("changes", []):
+        acting = copy.deepcopy(acting)
+        if "add_obstacle" in change:
+            acting["obstacles"].append(change["add_obstacle"])
+        elif "remove_obstacle" in change:
+            del acting["obstacles"][change["remove_obstacle"]]
+        for key, value in (entry.split("=", 1) for entry in change.get("set", [])):
+            if key.strip().startswith("obstacles"):
+                _put(acting, key.strip().split("."), tomllib.loads(f"value = {value}")["value"])
+        history.append((change["time"], acting["obstacles"]))
+    return history
 
 
 def animation_of_frames(frames: Frames, *, every: int, color: str, trail: int, interval: float) -> FuncAnimation:
@@ -82,14 +140,16 @@ def animation_of_frames(frames: Frames, *, every: int, color: str, trail: int, i
     every, trail = whole(every, "every", least=1), whole(trail, "trail")
     if color == "speed" and velocities is None:
         raise ValueError('these frames have no velocities for color="speed"; sample with velocities=True, or take another colour')
-    picture = _Picture(frames.scene, frames.radii, frames.species, color, trail)
+    picture = _Picture(frames.scene, frames.species, color, trail)
+
+    history = _obstacles_in_time(frames.scene)
 
     def show(k: int) -> tuple[Any, ...]:
         if k == 0:
             picture.past = []
-        return picture.show(
-            float(frames.time[k]), positions[k], None if velocities is None else velocities[k], frames.radii * frames.scale[k]
-        )
+        time, moving = float(frames.time[k]), None if velocities is None else velocities[k]
+        picture.set_obstacles(next(obstacles for since, obstacles in reversed(history) if since < time))
+        return picture.show(time, positions[k], moving, frames.radii * frames.scale[k], float(frames._shear_displacement[k]))
 
     return FuncAnimation(picture.figure, show, frames=range(0, len(frames), every), interval=real(interval, "interval"), blit=True)
 
@@ -102,12 +162,14 @@ def live_animation(simulation: Simulation, dt: float, frames: int | None, *, col
     if not dt > 0:
         raise ValueError(f"frames are {dt:g} apart; that must be positive")
     frames = None if frames is None else whole(frames, "frames", least=1)
-    picture = _Picture(simulation.scene, simulation.radii, simulation.species, color)
+    picture = _Picture(simulation.scene, simulation.species, color)
     begin = simulation.time
 
     def show(k: int) -> tuple[Any, ...]:
         simulation.run_until(begin + k * dt)
         state = simulation.state
-        return picture.show(simulation.time, state.positions, state.velocities, simulation.radii * state.scale)
+        picture.set_obstacles(_obstacles_in_time(simulation.scene)[0][1])
+        radii, displacement = simulation.radii * state.scale, state._core.shear_displacement
+        return picture.show(simulation.time, state.positions, state.velocities, radii, displacement)
 
     return FuncAnimation(picture.figure, show, frames=frames, interval=real(interval, "interval"), blit=True, cache_frame_data=False)

@@ -303,7 +303,7 @@ class Frames:
         return np.asarray(self.positions + self._images * lengths)
 
     def animate(self, every: int = 1, color: str = "speed", trail: int = 0, interval: float = 30) -> FuncAnimation:
-        """Returns the frames as an animation of matplotlib.
+        """Returns the frames as an animation of matplotlib. Obstacles are those of the scene at the time of the frame.
 
         Args:
             every: shows every n-th frame, n = every.

@@ -456,7 +456,8 @@ class Simulation:
         return play(self, until)
 
     def animate(self, dt: float, frames: int | None = None, color: str = "speed", interval: float = 30) -> FuncAnimation:
-        """Returns an animation of matplotlib that runs the simulation as it is shown, by `dt` from frame to frame.
+        """Returns an animation of matplotlib that runs the simulation as it is shown, by `dt` from frame to frame. Obstacles are those of
+        `scene` at the time.
 
         Args:
             dt: simulated time from one frame to the next.

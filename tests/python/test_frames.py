@@ -7,10 +7,12 @@ import gc
 import pickle
 import weakref
 from pathlib import Path
+from typing import Any
 
 import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
+import numpy.typing as npt
 import PIL.Image
 import pytest
 from conftest import GAS, ROOT
@@ -206,8 +208,67 @@ def test_an_animation_draws_disks_where_they_are(gas: carom.Scene) -> None:
     frames = carom.Simulation(gas).sample(0.25, until=2.0)
     animation = frames.animate(every=4)
     shown = [list(animation._func(k))[1] for k in animation.new_frame_seq()]
-    assert np.array_equal(shown[-1].get_offsets(), frames.positions[8])
+    assert np.array_equal(shown[-1].get_offsets()[:12], frames.positions[8])
     animation._init_draw()
+    plt.close("all")
+
+
+@pytest.mark.filterwarnings("ignore:Animation was deleted")
+@pytest.mark.parametrize("preset", ["gas", "shear"])
+def test_an_animation_draws_disks_that_stick_out_of_a_periodic_edge_on_the_other_side_too(preset: str) -> None:
+    sim = carom.Simulation(carom.Scene.preset(preset))
+    lower, upper = np.array(sim.scene.box).T
+    disks = list(sim.animate(dt=1.3)._func(3))[1]
+    places, radius = np.asarray(disks.get_offsets()), sim.radii[0]
+    sticking_out = (sim.positions < lower + radius) | (sim.positions > upper - radius)
+    assert len(places) >= sim.count + sticking_out.sum() and sticking_out.any(axis=0).all()
+    assert len(disks.get_array()) == len(places)
+    distances = np.hypot(*(places[:, None] - places[None]).T)[np.triu_indices(len(places), 1)]
+    assert distances.min() > 2 * radius * (1 - 1e-9), "an image is where it would overlap a disk"
+    plt.close("all")
+
+
+def drawn_shapes(artists: tuple[Any, ...]) -> tuple[list[npt.NDArray[Any]], npt.NDArray[Any]]:
+    """The lines and the centres of fixed disks in what an animation has drawn."""
+    *_, lines, posts = artists
+    return [np.asarray(line) for line in lines.get_segments()], np.asarray(posts.get_offsets())
+
+
+@pytest.mark.filterwarnings("ignore:Animation was deleted")
+def test_an_animation_draws_the_obstacles_of_the_scene() -> None:
+    for preset in ("sinai", "galton", "stadium", "mushroom", "lorentz"):
+        sim = carom.Simulation(carom.Scene.preset(preset))
+        obstacles = sim.scene.to_dict()["obstacles"]
+        for animation in (sim.animate(dt=0.05), sim.sample(0.05, 0.2).animate()):
+            lines, posts = drawn_shapes(animation._func(0))
+            segments = [line for line in lines if len(line) == 2]
+            arcs = [line for line in lines if len(line) > 2]
+            ends = [[o["segment"]["from"], o["segment"]["to"]] for o in obstacles if "segment" in o]
+            assert [line.tolist() for line in segments] == ends
+            for line, arc in zip(arcs, [o["arc"] for o in obstacles if "arc" in o], strict=True):
+                assert np.hypot(*(line - arc["centre"]).T) == pytest.approx(arc["radius"])
+            centres = [o["disk"]["centre"] for o in obstacles if "disk" in o]
+            assert posts[: len(centres)].tolist() == centres
+            assert (len(posts) > len(centres)) == (preset == "lorentz"), "a fixed disk that sticks out is on the other side too"
+    plt.close("all")
+
+
+@pytest.mark.filterwarnings("ignore:Animation was deleted")
+def test_an_animation_follows_obstacles_that_come_and_go() -> None:
+    door = {"segment": {"from": [3.0, 0.0], "to": [3.0, 4.0]}}
+    changes = [{"time": 1.0, "add_obstacle": door}, {"time": 2.0, "set": ["obstacles.0.segment.to=[3.0, 2.0]"]}, {"time": 3.0, "remove_obstacle": 0}]
+    disks = {"radius": 0.1, "mass": 1, "positions": [[1.0, 1.0], [5.0, 1.0]], "velocities": [[0.0, 0.5], [0.0, 0.5]]}
+    scene = carom.Scene({**GAS, "box": {**GAS["box"], "boundary": "walls"}, "disks": disks, "changes": changes})
+    ends = [None, None, 4.0, 2.0, None]  # of the door at 0, 1, 2, 3 and 4: a change is made after what happens at its time
+    live, frames = carom.Simulation(scene).animate(dt=1.0), carom.Simulation(scene).sample(1.0, 4.0).animate()
+    for animation in (live, frames):
+        drawn = [drawn_shapes(animation._func(k))[0] for k in range(5)]
+        assert [lines[0][1, 1] if lines else None for lines in drawn] == ends
+    sim = carom.Simulation(scene.set({"changes": []}))
+    steered = sim.animate(dt=1.0)
+    assert drawn_shapes(steered._func(0))[0] == []
+    sim.set("obstacles", [door])
+    assert len(drawn_shapes(steered._func(1))[0]) == 1
     plt.close("all")
 
 
