@@ -123,8 +123,8 @@ class Table(Mapping[str, npt.NDArray[Any]]):
         return frame
 
     def to_xarray(self) -> xarray.Dataset:
-        """Returns the table as a Dataset over its first column, or where its rows are all places of a grid over its first two or three.
-        Needs xarray (pip install carom[tables])."""
+        """Returns the table as a Dataset over its first column, or where its rows are all places of a grid over its first two or three,
+        numbers or words. Needs xarray (pip install carom[tables])."""
         import xarray
 
         axes, order = self._grid()
@@ -136,14 +136,17 @@ class Table(Mapping[str, npt.NDArray[Any]]):
         return xarray.Dataset(variables, coords=places, attrs={"title": self.title})
 
     def _grid(self) -> tuple[tuple[str, ...], npt.NDArray[np.intp]]:
-        """Returns the first columns, each combination of whose numbers is in one row, and the order of rows that counts the last fastest."""
+        """Returns the first columns, each combination of whose values is in one row, and the order of rows that counts the last fastest."""
         rows = len(self[self.columns[0]])
         for count in (2, 3):
             names = tuple(self.columns[:count])
-            if len(names) < count or any(self[name].dtype.kind != "f" for name in names):
+            if len(names) < count or any(self[name].ndim > 1 for name in names):
                 break
-            places = [np.unique(self[name], return_inverse=True) for name in names]
-            sizes = [len(numbers) for numbers, _ in places]
+            try:
+                places = [np.unique(self[name], return_inverse=True) for name in names]
+            except TypeError:  # values that have no order, such as words and None
+                break
+            sizes = [len(values) for values, _ in places]
             if sizes[0] == rows or math.prod(sizes) != rows:
                 continue
             row = np.ravel_multi_index(tuple(inverse for _, inverse in places), sizes)

@@ -640,6 +640,12 @@ def test_a_table_over_a_grid_is_a_dataset_over_its_axes(gas):
         assert float(data["density"].sel(place)) == table["density"][k] and data["density"].attrs["units"]
     over_time = carom.Table({"time": [0.0, 1.0, 0.0, 1.0], "x": [1.0, 1.0, 0.0, 0.0], "n": [1, 2, 3, 4]}).to_xarray()
     assert over_time["n"].dims == ("time", "x") and over_time["n"].values.tolist() == [[3, 1], [4, 2]]
+    words = np.array(["specular", "specular", "reversal", "reversal"], dtype=object)
+    for first, keys in {"count": [64, 64, 128, 128], "rule": words, "on": [False, False, True, True]}.items():
+        data = carom.Table({first: keys, "eta": [0.1, 0.2, 0.1, 0.2], "Z": [1.0, 2.0, 3.0, 4.0]}).to_xarray()
+        assert dict(data.sizes) == {first: 2, "eta": 2} and data["Z"].sel({first: keys[2], "eta": 0.2}) == 4.0
+    mixed = carom.Table({"rate": np.array([None, "fast", None, "fast"]), "eta": [0.1, 0.1, 0.2, 0.2], "Z": [1.0, 2.0, 3.0, 4.0]}).to_xarray()
+    assert mixed["Z"].dims == ("rate",)
     scattered = carom.Table({"time": [0.0, 1.0, 0.0], "x": [1.0, 1.0, 0.0]}).to_xarray()
     assert scattered["x"].dims == ("time",) and scattered["x"].values.tolist() == [1.0, 1.0, 0.0]
 
