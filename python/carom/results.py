@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -27,6 +27,21 @@ def with_error(value: float, error: float) -> str:
     """Returns a value with its standard error, both to the error's second digit: "2.0602 ± 0.0010", or "4.199e-21 ± 0.050e-21" where
     both are far from 1."""
     return _core.with_error(float(value), float(error))
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """What `Table.plot()` draws of a table where it is not told.
+
+    Attributes:
+        columns: names of columns; species and wave numbers may follow them, as in density_small.
+        log: the axes that are logarithmic: "x", "y", "xy" or "".
+        over: names of columns, as above, with the column that they are drawn over; others are over the first one.
+    """
+
+    columns: tuple[str, ...]
+    log: str = ""
+    over: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -75,6 +90,9 @@ class Table(Mapping[str, npt.NDArray[Any]]):
         units: of columns, in units of the scene; those that are absent are pure numbers or words.
         title: what the table holds.
     """
+
+    #: None: plot() draws all numbers.
+    _drawing: Drawing | None = None
 
     def __init__(
         self, columns: Mapping[str, npt.ArrayLike], units: Mapping[str, str] | None = None, title: str = ""
@@ -157,32 +175,68 @@ class Table(Mapping[str, npt.NDArray[Any]]):
     def plot(
         self, x: str | None = None, y: str | Sequence[str] | None = None, yerr: str | None = None, ax: Axes | None = None, **style: Any
     ) -> Axes:
-        """Draws columns over the first one, with error bars where there are errors. Needs matplotlib (pip install carom[plot]).
+        """Draws columns over another one, with error bars where there are errors. Needs matplotlib (pip install carom[plot]).
+
+        A table of the library is drawn as the page of a report draws it: the quantity itself, with logarithmic axes where that has them.
+        A table whose rows are all places of a grid over its first two columns, such as fields, is drawn as an image.
 
         Args:
             x: the column along the axis; None: the first one.
-            y: the column or columns to draw; None: all numbers that are not errors.
+            y: the column or columns to draw; None: those of the report, of other tables all numbers that are not errors. An image shows
+                one; None: the first.
             yerr: the column of errors; None: NAME_error, where it is there.
             ax: where to draw; None: a figure of its own.
-            style: what matplotlib's errorbar() takes besides.
+            style: what matplotlib's errorbar() takes besides, of an image its pcolormesh().
+
+        Raises:
+            ValueError: where x is not given, and rows are places of a grid over three columns, or an image is to show several columns.
         """
         import matplotlib.pyplot as plt
 
+        along, order = self._grid() if x is None else ((x,), np.arange(self.rows))
+        if len(along) > 1:
+            along = tuple(name for name in along if (self[name] != self[name][0]).any())
+        if len(along) > 2:
+            raise ValueError(f"this table is over {', '.join(along)}; draw a part of it, such as to_xarray().isel({along[0]}=0)")
+        numeric = [name for name in self if name not in along and not name.endswith("_error") and self[name].dtype.kind in "biuf"]
+        drawing = self._drawing or Drawing(())
+        usual = [name for name in numeric if _is_any(name, drawing.columns)]
+        names = usual or numeric if y is None else [y] if isinstance(y, str) else list(y)
+        is_image = len(along) == 2 and all(self[name].dtype.kind in "iuf" for name in along)
+        if is_image and y is None:
+            names = names[:1]
+        if is_image and len(names) != 1:
+            raise ValueError(f"this table is over {' and '.join(along)}, and an image shows one column, not {len(names)}; give one as y, or give x")
         axes = plt.subplots()[1] if ax is None else ax
-        x = x or self.columns[0]
-        numeric = [name for name in self if name != x and not name.endswith("_error") and self[name].dtype.kind in "biuf"]
-        names = numeric if y is None else [y] if isinstance(y, str) else list(y)
+        if self.title:
+            axes.set_title(self.title, fontsize="medium")
+        if is_image:
+            self._draw_image(axes, along, order, names[0], style)
+            return axes
+        over = {name: column for name in names for start, column in drawing.over.items() if x is None and _is_any(name, (start,))}
         for name in names:
             errors = yerr or f"{name}_error"
-            axes.errorbar(self[x], self[name], self[errors] if errors in self else None, **{"label": name, "capsize": 2, **style})
-        axes.set_xlabel(self.label(x))
+            drawn = {"label": self.label(name), "capsize": 2, **style}
+            axes.errorbar(self[over.get(name, along[0])], self[name], self[errors] if errors in self else None, **drawn)
+        axes.set_xlabel(self.label(over[names[0]] if len(names) == len(over) == 1 else along[0]))
+        if "x" in drawing.log and x is None:
+            axes.set_xscale("log")
+        if "y" in drawing.log and all(name in usual for name in names):
+            axes.set_yscale("log")
         if len(names) == 1:
             axes.set_ylabel(self.label(names[0]))
         else:
             axes.legend()
-        if self.title:
-            axes.set_title(self.title, fontsize="medium")
         return axes
+
+    def _draw_image(self, axes: Axes, along: tuple[str, ...], order: npt.NDArray[np.intp], name: str, style: Mapping[str, Any]) -> None:
+        places = [np.unique(self[axis]) for axis in along]
+        values = self[name][order].reshape([len(place) for place in places])
+        image = axes.pcolormesh(*places, values.T, **{"shading": "nearest", **style})
+        axes.figure.colorbar(image, ax=axes, label=self.label(name))
+        axes.set(xlabel=self.label(along[0]), ylabel=self.label(along[1]))
+        if self.units.get(along[0]) == self.units.get(along[1]) == "length":
+            axes.set_aspect("equal")
 
     def _cells(self) -> list[list[str]]:
         def cell(value: Any) -> str:
@@ -212,6 +266,11 @@ class Table(Mapping[str, npt.NDArray[Any]]):
         more = f"<p>{self.rows - _SHOWN:,} more rows</p>" if self.rows > _SHOWN else ""
         caption = f"<caption>{html.escape(self.title)}</caption>" if self.title else ""
         return f"<table>{caption}<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>{more}"
+
+
+def _is_any(name: str, starts: Iterable[str]) -> bool:
+    """Tells whether a column has one of these names, which species and wave numbers may follow."""
+    return any(name == start or name.startswith(f"{start}_") for start in starts)
 
 
 class Measurement(Mapping[str, Number]):

@@ -3,16 +3,21 @@
 import json
 import os
 import pickle
+import re
 import signal
 import subprocess
 import threading
 
+import matplotlib
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from conftest import PROGRAM, ROOT, needs_program
 from run_files import NOT_COMPARED
 
 import carom
+
+matplotlib.use("agg")
 
 CLOCKS = (*NOT_COMPARED, "carom", "scene")
 
@@ -648,6 +653,55 @@ def test_a_table_over_a_grid_is_a_dataset_over_its_axes(gas):
     assert mixed["Z"].dims == ("rate",)
     scattered = carom.Table({"time": [0.0, 1.0, 0.0], "x": [1.0, 1.0, 0.0]}).to_xarray()
     assert scattered["x"].dims == ("time",) and scattered["x"].values.tolist() == [1.0, 1.0, 0.0]
+
+
+def test_a_table_is_drawn_as_the_page_of_a_report_draws_it(gas):
+    source = (ROOT / "src/pages/observable_plots.cpp").read_text()
+    frame = r'\{"(\w+)",\s+"[\w-]+",(?:\s+"[^"]*",){3}\s+\{\{(.*?)\}\},\s+(true|false),\s+(true|false)'
+    of_report = {}
+    for table, columns, log_x, log_y in re.findall(frame, source):
+        of_report.setdefault(table, (re.findall(r'\{"(\w+)"', columns), log_x, log_y))
+    names = """radial_distribution structure_factor free_flight speeds hexatic voronoi clusters density_profile fields mean_square_displacement
+        overlap intermediate_scattering non_gaussian van_hove velocity_autocorrelation viscosity heat_conductivity h_function""".split()
+    found = carom.run(gas, observables=dict.fromkeys(names, True)).observables
+    drawn = set()
+    for table, columns in [pair for measurement in found.values() for pair in measurement.tables.items()]:
+        if table.startswith("fields"):
+            continue
+        axes = columns.plot()
+        starts, log_x, log_y = of_report[table]
+        expected = [c for c in columns if not c.endswith("_error") and any(c == start or c.startswith(start + "_") for start in starts)]
+        assert [line.get_label().split(" (")[0] for line in axes.containers] == expected, table
+        assert (axes.get_xscale() == "log", axes.get_yscale() == "log") == (log_x == "true", log_y == "true"), table
+        drawn.add(table)
+        plt.close("all")
+    assert drawn == set(of_report)
+    viscosity = found["viscosity"].table
+    by_integral, by_moment = (line.lines[0].get_xdata() for line in viscosity.plot().containers)
+    assert np.array_equal(by_integral, viscosity["integral_to"]) and np.array_equal(by_moment, viscosity["lag"])
+    diffusion = found["velocity_autocorrelation"].plot(y="diffusion")
+    assert diffusion.get_xlabel() == "integral_to (time)" and diffusion.get_ylabel() == "diffusion (length^2 / time)"
+    plt.close("all")
+
+
+def test_a_table_over_a_plane_is_drawn_as_an_image(gas):
+    fields = carom.run(gas, observables={"fields": {"cells": [4, 3]}}).observables["fields"]
+    for drawn, name in ((fields.plot(), "density"), (fields.plot(y="temperature", cmap="magma"), "temperature")):
+        (image,) = drawn.collections
+        table = fields.table
+        assert np.array_equal(np.ravel(image.get_array()), table[name][np.lexsort((table["x"], table["y"]))])
+        assert (drawn.get_xlabel(), drawn.get_ylabel()) == ("x (length)", "y (length)") and image.colorbar.ax.get_ylabel().startswith(name)
+    with pytest.raises(ValueError, match="over x and y, and an image shows one column, not 2; give one as y, or give x"):
+        fields.plot(y=["density", "temperature"])
+    with pytest.raises(ValueError, match=r"over time, x, y; draw a part of it, such as to_xarray\(\).isel\(time=0\)"):
+        fields.tables["fields_in_time"].plot()
+    line = carom.run(gas, observables={"fields": {"cells": [1, 5]}}).observables["fields"].plot()
+    assert line.get_xlabel() == "y (length)" and len(line.containers) == 1
+    own = carom.Table({"t": [0.0, 1.0], "x": [1.0, 0.5], "x_error": [0.1, 0.1], "n": [1, 2]})
+    assert [drawn.get_label() for drawn in own.plot().containers] == ["x", "n"]
+    rules = carom.Table({"rule": ["a", "a", "b", "b"], "eta": [0.1, 0.2, 0.1, 0.2], "Z": [1.0, 2.0, 3.0, 4.0]})
+    assert [drawn.get_label() for drawn in rules.plot(x="eta", y="Z").containers] == ["Z"]
+    plt.close("all")
 
 
 def test_the_state_at_the_end_is_in_the_terms_of_the_scene(tmp_path):
