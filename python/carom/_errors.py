@@ -15,7 +15,7 @@ class SceneError(ValueError):
 
     Attributes:
         sentence: what is wrong and what would be right, without the place.
-        source: the file; empty where a mapping or arrays were given.
+        source: the scene file or the start file; empty where what is wrong stands in a mapping or arrays.
         line, column: the place in the file, counted from 1; 0 where there is none.
     """
 

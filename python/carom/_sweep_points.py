@@ -88,7 +88,8 @@ def scene_at(base: Scene, keys: Sequence[str], full: Sequence[str], point: Mappi
     try:
         return base.set({name: point[key] for key, name in zip(keys, full, strict=True) if key in point})
     except SceneError as error:
-        raise SceneError(f"the scene of the point {_point_text(point)} is refused: {error.sentence}") from None
+        sentence = f"the scene of the point {_point_text(point)} is refused: {error.sentence}"
+        raise SceneError(sentence, error.source, error.line, error.column) from None
 
 
 def different(points: Sequence[dict[str, Any]], scenes: Sequence[Scene]) -> tuple[list[dict[str, Any]], list[Scene]]:

@@ -71,7 +71,8 @@ class Scene:
     left out.
 
     Raises:
-        SceneError: where the scene format does not allow it; the sentence names the key and what would be right.
+        SceneError: where the scene format does not allow it; the sentence names the key and what would be right, or the
+            line of the start file.
         TypeError: where a value is none that a scene can hold.
     """
 
@@ -241,10 +242,13 @@ class Scene:
 
 
 def _parsed(text: str, source: str, overrides: list[str], directory: str) -> _core.Scene:
-    """Reads TOML text of which the user has not seen the lines: errors are without them, and name the key all the same."""
+    """Reads TOML text of which the user has not seen the lines: errors are without them, and name the key all the same. Those in a start
+    file keep its name, line and column."""
     try:
         return _core.Scene.parse(text, source, overrides, directory)
     except SceneError as error:
+        if error.line and error.source != source:
+            raise
         raise SceneError(error.sentence) from None
 
 

@@ -179,3 +179,23 @@ def test_a_box_may_be_a_circle() -> None:
     simulation.set("gravity.acceleration", (0.0, -1.0))
     simulation.run_until(40.0)
     assert (((simulation.positions - [1.0, 2.0]) ** 2).sum(axis=1) < 2.75**2 * (1 + 1e-9)).all()
+
+
+def test_what_is_wrong_in_a_start_file_has_its_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("start.csv").write_text("x,y\n1,abc\n")
+    tables = {**GAS, "disks": {"radius": 0.4, "mass": 1.0, "positions": {"file": "start.csv"}, "velocities": {"temperature": 1.0}}}
+    Path("gas.toml").write_text(carom.Scene(GAS).toml)
+    file = tmp_path / "start.csv"
+    for scene in (lambda: carom.Scene(tables), lambda: carom.Scene.load("gas.toml").set({"disks.0": tables["disks"]})):
+        with pytest.raises(carom.SceneError, match=r'start.csv:2:3: y is "abc"; it must be a finite number') as raised:
+            scene()
+        error = raised.value
+        assert (Path(error.source).resolve(), error.line, error.column) == (file.resolve(), 2, 3) and error.sentence.startswith("y is")
+    with pytest.raises(carom.SceneError, match=r"start.csv:2:3: the scene of the point .* is refused: y is") as raised:
+        carom.sweep(carom.Scene(GAS), [{"disks.0": tables["disks"]}])
+    assert raised.value.line == 2
+    for wrong in ({"run.tim": 1.0}, {"disks.0.radius": 3.0}, {"disks.0": {**tables["disks"], "positions": {"file": "none.csv"}}}):
+        with pytest.raises(carom.SceneError) as raised:
+            carom.Scene.load("gas.toml").set(wrong)
+        assert (raised.value.source, raised.value.line) == ("", 0)
