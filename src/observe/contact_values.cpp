@@ -96,6 +96,12 @@ class ContactValues final : public SavedObservable<ContactValues> {
     put_all(found, "g", virial_, std::string(why_no_Z_));
     put_all(found, "g_rate", rate_, no_rate);
     put_all(found, "Z_share", share_, std::string(why_no_Z_));
+    const Effects& effects = run_.scene.effects;
+    constexpr std::size_t few = 64;
+    if (run_.disks.count() < few && !effects.potential_steps().empty() && !effects.bath_temperature())
+      found.note =
+          "a pair in contact has the energy of a step, and so few disks have another kT then: g and g_rate are too low or "
+          "too high by some 1 / N";
     return found;
   }
 

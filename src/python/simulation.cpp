@@ -269,18 +269,20 @@ void add_colliding_pair(nb::module_& module) {
       pair.*member = {std::get<0>(v), std::get<1>(v)};
     };
   };
-  nb::class_<CollidingPair>(module, "CollidingPair")
-      .def_ro("disk", &CollidingPair::disk)
-      .def_ro("partner", &CollidingPair::partner)
+  nb::class_<CollidingPair>(module, "CollidingPair",
+                            "Two disks in contact, as a collision rule of one's own gets them. The rule sets velocity and "
+                            "partner_velocity, with which they part; all else is read only.")
+      .def_ro("disk", &CollidingPair::disk, "The number of the one disk.")
+      .def_ro("partner", &CollidingPair::partner, "The number of the other disk.")
       .def_ro("mass", &CollidingPair::mass)
       .def_ro("partner_mass", &CollidingPair::partner_mass)
-      .def_ro("radius", &CollidingPair::radius)
-      .def_ro("partner_radius", &CollidingPair::partner_radius)
-      .def_prop_ro("normal", get(&CollidingPair::normal))
+      .def_ro("radius", &CollidingPair::radius, "Length, now: disks may grow.")
+      .def_ro("partner_radius", &CollidingPair::partner_radius, "Length, now.")
+      .def_prop_ro("normal", get(&CollidingPair::normal), "The unit vector (x, y) from the partner to the disk.")
       .def_prop_rw("velocity", get(&CollidingPair::velocity), set(&CollidingPair::velocity),
-                   nb::for_setter(nb::arg("value").none()))
+                   nb::for_setter(nb::arg("value").none()), "The velocity (vx, vy) of the disk, length / time.")
       .def_prop_rw("partner_velocity", get(&CollidingPair::partner_velocity), set(&CollidingPair::partner_velocity),
-                   nb::for_setter(nb::arg("value").none()));
+                   nb::for_setter(nb::arg("value").none()), "The velocity (vx, vy) of the partner, length / time.");
 }
 
 /// A collision rule that calls a function of Python, which the caller keeps alive: the rule itself would hide it from the
