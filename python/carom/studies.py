@@ -297,10 +297,10 @@ def validate(
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> Validation:
-    """Holds the engine against kinetic theory and the literature. Takes a minute; a full one takes twenty.
+    """Holds the engine against kinetic theory and the literature. Takes one to two minutes on two cores; a full one takes one to two hours.
 
     Args:
-        full: twenty times the collisions, and trials of its own.
+        full: twenty times the collisions, and seven trials more.
         only: names of trials, of `carom.validation_trials()`, and of their groups; none: all.
         seed: of the random numbers, 0 to 9e12.
         threads: how many trials run side by side, 1 to 4096, which find the same; None: one for each processor.

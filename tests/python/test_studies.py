@@ -354,3 +354,10 @@ def test_studies_run_side_by_side(scene):
     with ThreadPoolExecutor(2) as pool:
         one, other = pool.map(lambda _: carom.horizon(scene, collisions=2000), range(2))
     assert without_clocks(one.summary) == without_clocks(other.summary)
+
+
+def test_a_validation_is_said_to_take_as_long_as_the_program_says(program):
+    told = " ".join(program("help", "validate").stdout.split()).lower()
+    for time in ("one to two minutes on two cores", "one to two hours"):
+        assert time in told and time in " ".join(carom.validate.__doc__.split())
+    assert len(carom.validation_trials(full=True)) - len(carom.validation_trials()) == 7
