@@ -91,7 +91,8 @@ class Observable:
         name: the key of the results; letters, digits and underscores.
         step: the time between two calls of `sample()`; 0: it is never called.
         needs_positions: whether `sample()` reads more of a state than velocities; without, samples cost a fraction.
-        follows_collisions: whether `collisions()` is called.
+        follows_collisions: whether `collisions()` is called. A run raises SceneError for an observable that follows them in a scene
+            with [growth], [thermostat], [tumbling], [brownian], [shear] or [drag], which change velocities between collisions.
     """
 
     name: str = "observable"
@@ -106,10 +107,14 @@ class Observable:
         """Is called at the times k `step`, with the state and the pair collisions and their virial up to then."""
 
     def collisions(self, batch: npt.NDArray[Any]) -> None:
-        """Is called with the pair collisions since the last call, some 4,096 at a time, and all before a sample.
+        """Is called with the meetings of two disks since the last call, some 4,096 at a time, and all before a sample.
 
         `batch` is a structured array of dtype `carom.COLLISION`: time, disk, partner, separation (2, from the partner to the disk),
         impulse (2, that the disk got), velocity_before (2), velocity (2), partner_velocity_before (2), partner_velocity (2), contact.
+
+        `contact` is True where the disks touched. It is False where they met the edge of a well or of a step round each other, which
+        they passed or which turned them back: scenes with [square_well] or [stepped_potential] have these rows too. The number of
+        pair collisions is that of the rows with `contact`; in other scenes it is `len(batch)`.
         """
 
     def finish(self, time: float, collisions: int, virial: float) -> Mapping[str, Any]:

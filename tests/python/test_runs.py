@@ -119,6 +119,38 @@ def test_an_observable_of_ones_own_is_told_everything_and_changes_nothing(gas):
     assert np.allclose(before, told["velocity"] + told["partner_velocity"], atol=1e-13)
 
 
+class Batches(carom.Observable):
+    name, follows_collisions = "batches", True
+
+    def __init__(self):
+        self.contacts = []
+
+    def collisions(self, batch):
+        self.contacts += batch["contact"].tolist()
+
+
+def test_batches_hold_edges_of_wells_which_are_no_contacts():
+    batches = Batches()
+    result = carom.run(carom.Scene.preset("square_well").set({"run.time": 1.0}), observables=[batches])
+    assert sum(batches.contacts) == result.collisions < len(batches.contacts)
+
+
+def test_the_effects_that_change_velocities_between_collisions_are_refused_beside_observables_that_follow_them(gas):
+    effects = {
+        "growth": {"rate": 0.01},
+        "thermostat": {"temperature": 1.0, "rate": 0.1},
+        "tumbling": {"rate": 0.1},
+        "brownian": {"temperature": 1.0, "rate": 10.0},
+        "shear": {"rate": 0.1},
+        "drag": {"rate": 0.1},
+    }
+    for name, table in effects.items():
+        scene = carom.Scene({**gas.to_dict(), "run": {"time": 1.0, "sample_every": 0.5}, "observe": None, name: table})
+        with pytest.raises(carom.SceneError, match=rf"batches follows disks from collision to collision, and \[{name}\] changes their velocities"):
+            carom.run(scene, observables=[Batches()])
+        assert f"[{name}]" in carom.Observable.__doc__
+
+
 @pytest.mark.parametrize("others", [[], ["pressure"]])
 def test_an_observable_of_ones_own_is_no_difference(gas, tmp_path, program, others):
     carom.run(gas, observables=[*others, Everything()], out=tmp_path / "run")
