@@ -54,9 +54,14 @@ class Horizon:
             chosen = self.rows["estimated"] == estimated
             face = "none" if estimated else None
             axes.plot(self.rows["bits"][chosen], self.rows["time"][chosen], "o", markerfacecolor=face, label=label)
-        for bits, time, engine in zip(self.rows["bits"], self.rows["time"], self.rows["engine"], strict=True):
+        all_bits, labelled = self.rows["bits"], list[int]()
+        for bits, time, engine in zip(all_bits, self.rows["time"], self.rows["engine"], strict=True):
             if not math.isnan(time):
-                axes.annotate(f" {engine}", (bits, time), fontsize="small", verticalalignment="bottom")
+                # Labels of the same bits are on either side, and those on the right of the picture reach inwards.
+                to_left = bool(bits > (all_bits.min() + all_bits.max()) / 2) != (bits in labelled)
+                labelled.append(bits)
+                style: dict[str, Any] = {"fontsize": "small", "verticalalignment": "bottom", "horizontalalignment": "right" if to_left else "left"}
+                axes.annotate(engine, (bits, time), (-4 if to_left else 4, 2), textcoords="offset points", **style)
         axes.set_xlabel("bits of the significand")
         axes.set_ylabel(f"right until (time), every disk within {self.summary['horizon']['tolerance']:g} diameters")
         axes.legend()

@@ -72,11 +72,11 @@ class Comparison:
         """Draws error against cost, a line for each method: how long it computes for which error. Needs matplotlib.
 
         Args:
-            ax: where to draw; None: a figure of its own.
+            ax: where to draw; None: a figure of its own. The legend is to the right of it.
         """
         import matplotlib.pyplot as plt
 
-        axes = plt.subplots()[1] if ax is None else ax
+        axes = plt.subplots(figsize=(8, 4.8), layout="constrained")[1] if ax is None else ax
         methods: dict[str, list[tuple[float, float]]] = {}
         for one in self.summary["summary"]:
             error, seconds = one["error_early"]["median"], one["seconds_early"]
@@ -91,7 +91,7 @@ class Comparison:
         until = self.summary["plan"]["early_time"]
         axes.set_xlabel(f"processor time until t = {until:.4g} (s)")
         axes.set_ylabel("rms error of positions there (mean diameters)")
-        axes.legend(fontsize="small")
+        axes.legend(fontsize="small", loc="center left", bbox_to_anchor=(1.0, 0.5))  # inside it would cover points
         return axes
 
     def page(self) -> Page:

@@ -154,6 +154,21 @@ def test_what_studies_show(comparison, horizon):
     matplotlib.pyplot.close("all")
 
 
+def test_labels_of_plots_cover_nothing_and_stay_in_the_picture(comparison, horizon):
+    axes = comparison.plot()
+    axes.figure.canvas.draw()
+    legend = axes.get_legend().get_window_extent()
+    points = np.concatenate([axes.transData.transform(line.get_xydata()) for line in axes.get_lines()])
+    assert not any(legend.contains(*point) for point in points)
+    assert axes.figure.bbox.containsx(legend.x1) and axes.figure.bbox.containsy(legend.y0) and axes.figure.bbox.containsy(legend.y1)
+    axes = horizon.plot()
+    axes.figure.canvas.draw()
+    labels = [text.get_window_extent() for text in axes.texts]
+    assert len(labels) == 5 and all(axes.bbox.containsx(label.x0) and axes.bbox.containsx(label.x1) for label in labels)
+    assert not any(one.overlaps(other) for k, one in enumerate(labels) for other in labels[:k])
+    matplotlib.pyplot.close("all")
+
+
 def test_studies_pickle(comparison, horizon):
     assert pickle.loads(pickle.dumps(comparison)).summary == comparison.summary
     assert pickle.loads(pickle.dumps(horizon)).sentence == horizon.sentence
