@@ -315,6 +315,10 @@ class Measurement(Mapping[str, Number]):
         """Returns the numbers as a DataFrame, a row each. Needs pandas (pip install carom[tables])."""
         return self.numbers.to_pandas()
 
+    def to_xarray(self) -> xarray.Dataset:
+        """Returns the numbers as a Dataset over their names, with value, error, unit and note. Needs xarray (pip install carom[tables])."""
+        return self.numbers.to_xarray()
+
     @property
     def numbers(self) -> Table:
         """The numbers as a table: name, value, error, unit, note."""

@@ -687,6 +687,14 @@ def test_a_table_over_a_grid_is_a_dataset_over_its_axes(gas):
     assert scattered["x"].dims == ("time",) and scattered["x"].values.tolist() == [1.0, 1.0, 0.0]
 
 
+def test_the_numbers_of_a_measurement_are_a_dataset(gas):
+    pytest.importorskip("xarray")
+    pressure = carom.run(gas, observables={"pressure": True}).observables["pressure"]
+    data = pressure.to_xarray()
+    assert data["name"].values.tolist() == list(pressure) and data.attrs["title"] == "pressure"
+    assert float(data["value"].sel(name="Z")) == pressure["Z"].value and float(data["error"].sel(name="Z")) == pressure["Z"].error
+
+
 def test_a_table_is_drawn_as_the_page_of_a_report_draws_it(gas):
     source = (ROOT / "src/pages/observable_plots.cpp").read_text()
     frame = r'\{"(\w+)",\s+"[\w-]+",(?:\s+"[^"]*",){3}\s+\{\{(.*?)\}\},\s+(true|false),\s+(true|false)'
