@@ -245,6 +245,24 @@ TEST_F(SweepReader, AValueAtWhichNoTableHasARowIsRefused) {
   EXPECT_THAT(at("mean_square_displacement.msd@0.1@0.2"), HasSubstr("behind @ there is to be a value of lag, such as"));
 }
 
+TEST_F(SweepReader, AValueBeyondWhatASceneSaysOfATableIsRefused) {
+  const auto at = [&](const std::string& name, const std::string& velocities = "temperature = 4.0") {
+    return files_.refusal(scene_line + "table = [\"observables." + name + "\"]\n[set]\nrun.time = 4.0\n" +
+                          "disks.0.velocities = { " + velocities + " }\ndisks.0.count = 20\n" +
+                          "observe = { clusters = true, voronoi = true, speeds = true }\n");
+  };
+  for (const char* right : {"clusters.clusters_per_disk@1", "clusters.clusters_per_disk@20", "voronoi_neighbours.fraction@12",
+                            "voronoi_areas.density@3.5", "speeds.density@9", "energies.density@45"})
+    EXPECT_EQ(at(right), "") << right;
+  for (const char* name : {"clusters.clusters_per_disk@0", "clusters.clusters_per_disk@21"})
+    EXPECT_THAT(at(name), HasSubstr("no run has a row there; the table begins at a larger size, or ends at a smaller")) << name;
+  EXPECT_THAT(at("voronoi_neighbours.fraction@13"), HasSubstr("begins at a larger neighbours, or ends at a smaller"));
+  EXPECT_THAT(at("voronoi_areas.density@5"), HasSubstr("the table begins at a larger area, or ends at a smaller"));
+  for (const char* name : {"speeds.density@10.1", "energies.density@51", "speeds.density@0"})
+    EXPECT_THAT(at(name), HasSubstr("the table begins at a larger middle, or ends at a smaller")) << name;
+  EXPECT_EQ(at("speeds.density@11", "speed = 4.0"), "") << "the temperature is that of what is drawn";
+}
+
 TEST_F(SweepReader, ATableHasCellsByAPlaceInThem) {
   const auto at = [&](const std::string& name, const std::string& more = "") {
     return files_.refusal(scene_line + "table = [\"observables." + name + "\"]\n[set]\nrun.time = 4.0\n" +

@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace carom {
@@ -95,9 +96,10 @@ std::optional<std::string> fault_of_place(const std::string& name, const std::ve
                        fmt::join(std::vector<double>(count, 1.5), ","));
   if (columns == "lag" && wanted->at.front() <= 0.0) return "no run has a row there; the table begins at a larger lag";
   if (columns == "lag") return "no run is that long; a lag is at most run.time";
-  if (std::ranges::find(detail::counting_columns, columns) != detail::counting_columns.end())
+  if (std::ranges::find(detail::counting_columns, columns) != detail::counting_columns.end() &&
+      wanted->at.front() != std::floor(wanted->at.front()))
     return fmt::format("{} is a whole number", columns);
-  if (columns == "r" || columns == "k")
+  if (count == 1 && !detail::is_place(columns))
     return fmt::format("no run has a row there; the table begins at a larger {0}, or ends at a smaller", columns);
   if (columns == "x" || columns == "y")
     return fmt::format("no run has a row there; rows are at the {} of the middles of cells", columns);

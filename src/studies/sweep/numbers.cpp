@@ -91,9 +91,9 @@ void sample_those_empty_at_first(ObservableGroup& group, State state) {
     }
 }
 
-/// Returns what the observables of a scene measure in disks at rest.
-std::vector<Measurement> results_of_nothing(const Scene& scene, const Disks& disks, const State& state) {
-  ObservableGroup group(observed_run(scene, disks, 1.0));
+/// Returns what the observables of a scene measure in disks at rest, with histograms as they are scaled at a temperature.
+std::vector<Measurement> results_of_nothing(const Scene& scene, const Disks& disks, const State& state, double kT = 1.0) {
+  ObservableGroup group(observed_run(scene, disks, kT));
   group.start(state);
   sample_those_empty_at_first(group, state);
   return group.results(0.0, Totals{});
@@ -153,23 +153,42 @@ bool may_reach(const Scene& scene, const std::string& column, double at) {
   return at >= scene.box.lower[axis] && at <= scene.box.upper[axis];
 }
 
-/// Returns whether a curve over a lag, a length or a wave number may begin and end around a value. Where radii are drawn or walls
-/// move, each run has lengths of its own; what has no rows before it is measured may have any.
+/// Returns the temperature at the start where the scene says it: that of a bath, or the one that velocities of all species are
+/// drawn with.
+std::optional<double> known_temperature(const Scene& scene) {
+  if (const std::optional<double> bath = scene.effects.bath_temperature()) return bath;
+  if (scene.run.equilibrate || scene.run.keep_momentum) return {};
+  std::optional<double> known;
+  for (const Species& species : scene.species) {
+    const auto* maxwell = std::get_if<MaxwellVelocities>(&species.velocities);
+    if (maxwell == nullptr || (known && *known != maxwell->temperature)) return {};
+    known = maxwell->temperature;
+  }
+  return known;
+}
+
+/// Returns whether a curve over a lag, a length, a wave number, a size or an energy may begin and end around a value. Where radii
+/// are drawn or walls move, each run has lengths of its own, and where the temperature is not known each has energies of its own;
+/// what has no rows before it is measured may have any.
 bool may_be_on_curve(const Scene& given, const TableNumber& wanted) {
   if (wanted.at.size() > 1 || std::ranges::any_of(given.species, &Species::radii_are_drawn) || has_walls_that_move(given))
     return true;
   Scene scene = given;
   scene.effects = detail::effects_of_whole_run(given);
   const Disks disks = all_disks(given);
-  for (const Measurement& measured :
-       results_of_nothing(scene, disks, state_of_nothing(scene, static_cast<Eigen::Index>(disks.count()))))
+  const std::optional<double> temperature = known_temperature(scene);
+  const State state = state_of_nothing(scene, static_cast<Eigen::Index>(disks.count()));
+  for (const Measurement& measured : results_of_nothing(scene, disks, state, temperature.value_or(1.0)))
     for (const Table& table : measured.tables) {
       const Column& rows = table.columns.front();
       if (table.name != wanted.table || rows.values.empty()) continue;
-      const auto [first, last] = std::ranges::minmax(rows.values);
+      const auto [first, last_of_first] = std::ranges::minmax(rows.values);
+      const Column* const to = last_in_rows(table);
+      const double last = to == nullptr ? last_of_first : to->values.back();
       const double at = wanted.at.front();
       if (rows.name == "lag") return at > 0.0 || first == 0.0;  // its other rows depend on speeds
-      if (rows.unit != "length" && rows.unit != "1 / length") return true;
+      const bool is_of_lengths = rows.unit.empty() || rows.unit == "length" || rows.unit == "1 / length";
+      if (!is_of_lengths && !(rows.name == "middle" && temperature)) return true;
       return (at >= first || !differ(at, first)) && (at <= last || !differ(at, last));
     }
   return true;

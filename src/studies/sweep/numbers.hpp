@@ -48,8 +48,8 @@ struct TableNumber {
 
 /// Returns whether a run of the scene may have the number, with a value or null: it is one of `numbers`, which number_names()
 /// returned for this scene, or a column of one of their tables. A lag must not be longer than the run, the place of a cell must
-/// be in the box unless its walls move, a number of neighbours must be whole, and a curve over a length or a wave number must
-/// begin and end around the value.
+/// be in the box unless its walls move, a number of neighbours must be whole, and a curve over a length, a wave number, a
+/// size or, at a temperature that the scene says, a speed must begin and end around the value.
 [[nodiscard]] bool has_number(const std::string& name, const Scene& scene, const std::vector<std::string>& numbers);
 
 /// Returns whether a sweep's table holds the number where nothing else is asked for.
