@@ -122,8 +122,9 @@ class RadialDistribution final : public SavedObservable<RadialDistribution> {
       contact_value_.fill(contact, step_);
       if (!contact.value) contact.note = "nothing was measured";
     } else {
-      contact.note = all_equal(run_.disks.radius) ? "disks of several species touch at several distances"
-                                                  : "disks of several sizes touch at several distances";
+      contact.note = touch_at_one_distance(run_)    ? "the range ends where disks touch or before; make it longer"
+                     : all_equal(run_.disks.radius) ? "disks of several species touch at several distances"
+                                                    : "disks of several sizes touch at several distances";
     }
     found.scalars.push_back(std::move(contact));
     Table table{.name = name()};

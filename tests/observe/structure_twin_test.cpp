@@ -28,6 +28,16 @@ const Observed& fluid_with_structure() {
   return observed;
 }
 
+TEST(RadialDistribution, SaysThatARangeBelowContactHasNoContactValue) {
+  for (const char* range : {"0.9", "1.0"}) {
+    const Observed observed =
+        observe(parse_scene(small_fluid(std::string("radial_distribution = { every = 0.25, range = ") + range + " }")), 0.25);
+    EXPECT_FALSE(observed.scalar("radial_distribution", "contact").value);
+    EXPECT_EQ(observed.scalar("radial_distribution", "contact").note,
+              "the range ends where disks touch or before; make it longer");
+  }
+}
+
 /// Lengths and speeds times 2^a: not a bit of what has no unit is another.
 TEST(RadialDistribution, HasOneContactValueInAllUnitsOfLength) {
   const auto contact_in = [](int a) {
