@@ -31,6 +31,9 @@ void require_only_what_it_has(const RunOptions& options) {
     if (is_given) throw UsageError(fmt::format("--changes and {} do not go together; leave out one of the two", option));
   };
   refuse(options.method != "exact", "--method");
+  refuse(options.dt.has_value(), "--dt");
+  refuse(options.stiffness.has_value(), "--stiffness");
+  refuse(options.pace.has_value(), "--pace");
   refuse(options.scene.engine != "auto", "--engine");
   refuse(options.verify.has_value(), "--verify");
   refuse(options.verify_horizon, "--verify-horizon");

@@ -75,6 +75,8 @@ TEST_F(ChangedRun, RefusesWrongListsAndOptionsOfOtherRuns) {
   refused({"run", "gas.toml", "--changes", "some.toml", "--report"}, "--changes and --report do not go together");
   refused({"run", "gas.toml", "--changes", "some.toml", "--csv", "--unwrapped"}, "--changes and --unwrapped");
   refused({"run", "gas.toml", "--changes", "some.toml", "--method", "naive"}, "--changes and --method");
+  for (const std::string option : {"--dt", "--stiffness", "--pace"})
+    refused({"run", "gas.toml", "--changes", "some.toml", option, "2"}, "--changes and " + option + " do not go together");
 }
 
 /// A program that is installed, with a page in the place of the built one.
