@@ -5,6 +5,8 @@
 #include "io/json.hpp"
 #include "io/run_directory.hpp"
 #include "live/live_run.hpp"
+#include "scene/checks.hpp"
+#include "scene/refusal.hpp"
 #include "terminal/signals.hpp"
 #include "text/numbers.hpp"
 
@@ -15,6 +17,7 @@
 #include <algorithm>
 #include <exception>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -100,14 +103,19 @@ class Samples {
   State state_;
 };
 
-/// Makes a change of `file`. Throws UsageError where it cannot be made.
-void make(LiveRun& run, const Change& change, const std::string& file) {
+/// Makes a change of `file`, which lasts `until` then. Throws UsageError where it cannot be made, or not for so long.
+void make(LiveRun& run, const Change& change, double until, const std::string& file) {
   const auto refuse = [&](const std::exception& error) {
     throw UsageError(fmt::format("{}: the change at time {:g} cannot be made: {}", file, change.time, error.what()));
   };
   try {
     run.apply(change);
+    Scene changed = run.simulation().scene();
+    changed.run.time = std::max(0.0, until - change.time);
+    detail::check_scales(changed);
   } catch (const SceneError& error) {
+    refuse(error);
+  } catch (const detail::Refusal& error) {
     refuse(error);
   } catch (const std::invalid_argument& error) {
     refuse(error);
@@ -128,7 +136,11 @@ StopReason run_to(LiveRun& run, double end, const std::vector<Change>& changes, 
     if (stopped == StopReason::events) continue;
     if (stopped != StopReason::time) return stopped;
     if (samples != nullptr && samples->next() <= target) samples->take(run);
-    if (change != changes.end() && change->time <= target) make(run, *change++, file);
+    if (change != changes.end() && change->time <= target) {
+      const auto next = std::next(change);
+      make(run, *change, next == changes.end() ? end : std::min(end, next->time), file);
+      change = next;
+    }
     const bool done = (change == changes.end() || change->time > end) && (samples == nullptr || samples->next() > end);
     if (target >= end && done) return StopReason::time;
   }

@@ -79,6 +79,19 @@ TEST_F(ChangedRun, RefusesWrongListsAndOptionsOfOtherRuns) {
     refused({"run", "gas.toml", "--changes", "some.toml", option, "2"}, "--changes and " + option + " do not go together");
 }
 
+TEST_F(ChangedRun, RefusesWhatCannotBeComputedUntilTheNextChangeOrTheEnd) {
+  const std::string walls = "box.boundary=\"walls\"";
+  const std::string wild = "[[changes]]\ntime = 0.5\nset = [\"gravity.acceleration=[0, 1e40]\"]\n";
+  write_text(file("wild.toml"), wild);
+  const Outcome refusal = carom({"run", "gas.toml", "--changes", "wild.toml", "--set", walls});
+  EXPECT_EQ(refusal.exit_code, 2);
+  EXPECT_THAT(refusal.err, AllOf(HasSubstr("wild.toml: the change at time 0.5 cannot be made: gravity.acceleration"),
+                                 HasSubstr("more than 2^53 times cannot be computed")));
+  write_text(file("brief.toml"), wild + "[[changes]]\ntime = 0.5\nset = [\"gravity.acceleration=[0, 0]\"]\n");
+  const Outcome brief = carom({"run", "gas.toml", "--changes", "brief.toml", "-q", "--set", walls});
+  EXPECT_EQ(brief.exit_code, 0) << brief.err;
+}
+
 /// A program that is installed, with a page in the place of the built one.
 class PlaygroundCommand : public ProgramTest {
  protected:
