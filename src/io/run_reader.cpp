@@ -47,11 +47,13 @@ auto RunReader::guarded(Action action) const -> decltype(action()) {
 
 RunReader::RunReader(const fs::path& directory) : path_(directory / "trajectory.h5md") {
   detail::require_finished_run(directory);
+  read_summary(directory);
   if (!detail::has_trajectory(directory))
     throw OutputError(fmt::format(
-        "{}: this run kept no trajectory.h5md; run the scene again with run.sample_every, and with --events for an exact replay",
-        directory.string()));
-  read_summary(directory);
+        "{}: this run kept no trajectory.h5md; run the scene again with {}, and with --events for an exact replay",
+        directory.string(),
+        detail::summary_in(directory).value("samples", 0) > 0 ? "output.trajectory = true and not with --no-trajectory"
+                                                              : "run.sample_every"));
   open();
 }
 

@@ -2,6 +2,7 @@
 
 #include "scene/effect_traits.hpp"
 #include "scene/excerpt.hpp"
+#include "scene/number_keys.hpp"
 #include "scene/observables_known.hpp"
 
 #include <fmt/format.h>
@@ -127,6 +128,12 @@ std::string home_of(std::string_view key) {
   return find_observable(key) != nullptr ? "[observe]" : "";
 }
 
+/// Returns an example of an obstacle in which there is a key, which is not one of [[obstacles]] itself; empty for other words.
+std::string shape_with_key(std::string_view key) {
+  if (key == "centre" || key == "radius") return fmt::format("disk = {}", keys::disk_example);
+  return key == "from" || key == "to" ? fmt::format("segment = {}", keys::segment_example) : "";
+}
+
 /// Returns the path of a table's title, "disks.0" for "[[disks]]"; empty for words that are no title.
 std::string path_of_title(std::string_view title) {
   for (const std::string_view name : {"box", "collision", "run", "output"})
@@ -201,6 +208,8 @@ std::string unknown_key_sentence(std::string_view key, std::string_view path, st
   // One edit away from a key of this table is a slip of the finger, whatever the word means elsewhere: [[disk]] for [[disks]].
   const std::string_view near = nearest_word(key, known);
   if (takes_foreign_words(path) && !meant_by(key).empty()) return fmt::format("{}; {}", problem, meant_by(key));
+  if (const std::string shape = shape_with_key(key); table_title(path) == "[[obstacles]]" && !shape.empty())
+    return fmt::format("{}; it belongs to a shape in it, such as {}", problem, shape);
   const std::string home = !near.empty() && edit_distance(key, near) == 1 ? std::string() : home_of(key);
   if (!home.empty()) return fmt::format("{}; it belongs to {}", problem, home);
   if (key == "title") return problem + "; it belongs to the top of the file, before the first [table]";

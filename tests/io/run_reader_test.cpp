@@ -248,7 +248,15 @@ TEST_F(RunReaderTest, KnowsObstaclesThatComeDuringTheRun) {
 TEST_F(RunReaderTest, RefusesARunWithoutATrajectory) {
   (void)recorded();
   fs::remove(run_ / "trajectory.h5md");
-  EXPECT_THAT(refusal(run_), HasSubstr("kept no trajectory.h5md"));
+  EXPECT_THAT(refusal(run_), HasSubstr("kept no trajectory.h5md; run the scene again with output.trajectory = true"));
+}
+
+TEST_F(RunReaderTest, RefusesARunWithoutSamples) {
+  const std::string scene =
+      "[box]\nx = [0, 4]\ny = [0, 4]\nboundary = \"walls\"\n[[disks]]\nradius = 0.5\nmass = 1\npositions = [[1, 1]]\n"
+      "velocities = [[1, 0]]\n[collision]\nrule = \"specular\"\n[run]\ntime = 4.0\n";
+  record(parse_scene(scene), run_);
+  EXPECT_THAT(refusal(run_), HasSubstr("kept no trajectory.h5md; run the scene again with run.sample_every"));
 }
 
 /// Also the second time: a dataset that cannot be opened is not one that is not there.

@@ -52,6 +52,17 @@ TEST(KnownKeys, WordsOfTimeSteppersLeadToOurs) {
             "obstacles.0.disk has no key \"r\"; its keys are centre, radius");
 }
 
+TEST(KnownKeys, APartOfAnObstacleLeadsToTheShapeThatHasIt) {
+  constexpr std::array<std::string_view, 3> shapes = {"disk", "segment", "arc"};
+  for (const std::string key : {"centre", "radius"})
+    EXPECT_EQ(unknown_key_sentence(key, "obstacles.0", shapes),
+              "[[obstacles]] has no key \"" + key +
+                  "\"; it belongs to a shape in it, such as disk = { centre = [0.0, 0.0], radius = 0.3 }");
+  EXPECT_EQ(
+      unknown_key_sentence("to", "obstacles.0", shapes),
+      "[[obstacles]] has no key \"to\"; it belongs to a shape in it, such as segment = { from = [0.0, -1.0], to = [0.0, -0.1] }");
+}
+
 TEST(KnownKeys, TablesAreNamedAsTheyAreWritten) {
   EXPECT_EQ(table_title("walls"), "[walls]");
   EXPECT_EQ(table_title("obstacles.3"), "[[obstacles]]");

@@ -106,6 +106,8 @@ TEST_F(ExternalTrajectoryFile, MayGoOnPastPeriodicEdges) {
 TEST_F(ExternalTrajectoryFile, IsRefusedWithItsFirstDifference) {
   const std::vector<double> six(12, 0.5);
   refused("a.npy", saved_array("(2, 3, 2)", false, six), "give the time between frames, --every DT");
+  EXPECT_THAT(refusal<SceneError>([&] { return read_trajectory_file("nowhere.npy", scene_, disks_, std::nullopt); }),
+              HasSubstr("there is no such file; check the path"));
   refused("a.npy", saved_array("(3, 2, 2)", false, six), "its frames have 2 disks and the scene has 3", 0.1);
   refused("a.npy", saved_array("(4, 3)", false, six), "the shape (4, 3)", 0.1);
   refused("a.npy", saved_array("(3, 3, 2)", false, six), "the file ends early", 0.1);

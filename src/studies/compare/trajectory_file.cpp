@@ -22,11 +22,12 @@ namespace carom {
 namespace {
 
 std::vector<State> read_npy(const std::string& path, std::optional<double> every) {
+  const std::string text = detail::read_text_file(path);
   if (!every)
     throw std::invalid_argument(fmt::format("{}: an array has no times; give the time between frames, --every DT", path));
   if (!(*every > 0.0 && std::isfinite(*every)))
     throw std::invalid_argument(fmt::format("--every {:g}: the time between frames must be positive and finite", *every));
-  const detail::NpyFrames file = detail::parse_npy_frames(detail::read_text_file(path), path);
+  const detail::NpyFrames file = detail::parse_npy_frames(text, path);
   std::vector<State> frames(file.frames);
   const auto disks = static_cast<Eigen::Index>(file.disks);
   const double* value = file.values.data();
