@@ -78,20 +78,23 @@ bool has_spins(const Scene& scene, const State& state) {
 
 const EngineEntry& choose_engine(const Scene& scene, const Disks& disks, const std::string& engine, const EngineNeeds& needs) {
   const auto& entries = catalogue();
-  if (engine == "auto") {
-    const auto covering = [&](const auto& entry) {
-      return (entry.takes_rules || !needs.own_rule) && (entry.keeps_spins || !needs.spins) && entry.covers(scene, disks);
-    };
-    return *std::find_if(entries.begin(), entries.end(), covering);  // there is one: the textbook engine covers everything
-  }
+  const auto covering = [&](const auto& entry) {
+    return (entry.takes_rules || !needs.own_rule) && (entry.keeps_spins || !needs.spins) && entry.covers(scene, disks);
+  };
+  const auto chosen = [&] {
+    return std::find_if(entries.begin(), entries.end(), covering);  // there is one: the textbook engine covers everything
+  };
+  if (engine == "auto") return *chosen();
   const auto named = [&](const auto& entry) { return entry.name == engine; };
   const auto entry = std::find_if(entries.begin(), entries.end(), named);
   if (entry == entries.end())
     throw std::invalid_argument(
         fmt::format("there is no engine \"{}\"; choose one of auto, {}", engine, fmt::join(engine_names(), ", ")));
-  if (const std::string reason = entry->why_not(scene, disks); !reason.empty())
-    throw std::invalid_argument(fmt::format(
-        "the engine \"{}\" does not cover this scene: {}; leave the choice to carom, or take \"textbook\"", engine, reason));
+  if (const std::string reason = entry->why_not(scene, disks); !reason.empty()) {
+    throw std::invalid_argument(
+        fmt::format("the engine \"{}\" does not cover this scene: {}; leave the choice to carom, or take \"{}\"", engine, reason,
+                    chosen()->name));
+  }
   if (needs.spins && !entry->keeps_spins)
     throw std::invalid_argument(fmt::format(
         "the engine \"{}\" does not keep the spins that disks have; leave the choice to carom, or take \"general\"", engine));

@@ -15,6 +15,7 @@ namespace carom::test {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -64,9 +65,12 @@ TEST(ChoiceOfEngine, SaysWhyTheOneAskedForCannotRunTheScene) {
   Scene scene = gas_scene(100, 0.3, Boundary::walls);
   EXPECT_EQ(make_simulation(scene, "textbook").engine_reason(), "it was asked for");
   scene.effects.gravity = Gravity{{0.0, -1.0}};
-  EXPECT_THAT(
-      refusal<std::invalid_argument>([&] { return make_simulation(scene, "fast"); }),
-      AllOf(StartsWith("the engine \"fast\" does not cover this scene: the scene asks for gravity; "), HasSubstr("textbook")));
+  EXPECT_THAT(refusal<std::invalid_argument>([&] { return make_simulation(scene, "fast"); }),
+              AllOf(StartsWith("the engine \"fast\" does not cover this scene: the scene asks for gravity; "),
+                    EndsWith("take \"general\"")));
+  const Scene small = gas_scene(4, 0.6, Boundary::periodic);
+  for (const char* engine : {"fast", "general"})
+    EXPECT_THAT(refusal<std::invalid_argument>([&] { return make_simulation(small, engine); }), EndsWith("take \"textbook\""));
 }
 
 TEST(ChoiceOfEngine, EnginesThatCoverASceneAreKnownWithoutItsStart) {
