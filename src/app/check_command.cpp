@@ -38,13 +38,14 @@ constexpr double bytes_per_event = 40;
 std::string start_and_engine(const Scene& scene, const Simulation& simulation) {
   const double kT = kinetic_temperature(scene.box, scene.effects, simulation.disks(), simulation.state());
   const auto bytes = static_cast<double>(simulation.bytes());
-  const double disks = std::max(1.0, static_cast<double>(scene.disk_count()));
+  const auto disks = static_cast<double>(scene.disk_count());
   return fmt::format(
       "  start       {}; {}; kT = {:.4g}\n"
-      "  engine      {}: {}{}; {} of memory, {:.0f} bytes per disk\n",
+      "  engine      {}: {}{}; {} of memory{}\n",
       start_is_drawn(scene) ? "drawn at random" : "given",
       scene.run.accept_overlap ? "overlaps are accepted" : "no disks overlap", kT, simulation.engine(),
-      simulation.engine_reason(), scene.changes.empty() ? "" : ", until a change asks for more", size(bytes), bytes / disks);
+      simulation.engine_reason(), scene.changes.empty() ? "" : ", until a change asks for more", size(bytes),
+      disks > 0.0 ? fmt::format(", {:.0f} bytes per disk", bytes / disks) : "");
 }
 
 /// Changes themselves may scale velocities, and lift or lower disks in a potential.

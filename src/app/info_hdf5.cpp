@@ -28,8 +28,8 @@ std::string species_line(hid_t file, hsize_t disks) {
   std::vector<std::string> parts;
   for (std::size_t s = 0; s < names.size(); ++s)
     parts.push_back(fmt::format("{} {}", std::count(species.begin(), species.end(), static_cast<double>(s)), names[s]));
-  return fmt::format(
-      "{}", parts.size() < 2 ? fmt::format("{}", fmt::join(parts, "")) : fmt::format("{}: {}", disks, fmt::join(parts, ", ")));
+  if (parts.empty()) return "none";
+  return parts.size() == 1 ? parts.front() : fmt::format("{}: {}", disks, fmt::join(parts, ", "));
 }
 
 std::string box_line(hid_t file, hsize_t samples) {

@@ -68,6 +68,8 @@ TEST(CheckCommand, SaysWhichEngineRunsTheSceneAndWhyAndHowMuchMemoryItTakes) {
               HasSubstr("\n  engine      general: the scene asks for gravity; "));
   EXPECT_THAT(run_carom(directory.path(), {"check", box, "--engine", "textbook"}).out,
               HasSubstr("\n  engine      textbook: it was asked for; "));
+  EXPECT_THAT(run_carom(directory.path(), {"check", box, "--set", "disks=[]"}).out,
+              AllOf(ContainsRegex(" kB of memory\n"), Not(HasSubstr("per disk"))));
 }
 
 TEST(CheckCommand, SaysWhatTheRunWillCost) {

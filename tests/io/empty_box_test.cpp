@@ -28,6 +28,7 @@ TEST(EmptyBox, WritesATrajectoryOfFramesWithoutDisks) {
   EXPECT_EQ(run_schedule(simulation, hooks).samples, 3u);
   writer.finish({});
   EXPECT_NE(describe_file(path / "trajectory.h5md").find("samples     3,"), std::string::npos);
+  EXPECT_NE(describe_file(path / "trajectory.h5md").find("disks       none\n"), std::string::npos);
   std::filesystem::remove_all(path);
 }
 
