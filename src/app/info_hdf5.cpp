@@ -43,8 +43,9 @@ std::string box_line(hid_t file, hsize_t samples) {
   if (samples == 0) return text;
   const std::vector<double> edges = read_rows(file, particles + "/box/edges/value", 0, 1);
   const std::vector<double> last = read_rows(file, particles + "/box/edges/value", samples - 1, 1);
-  if (edges.at(0) != last.at(0) || edges.at(4) != last.at(4)) text += fmt::format("; at the end {} x {}", last.at(0), last.at(4));
-  return fmt::format("{} x {} from ({}, {}); {}", edges.at(0), edges.at(4), origin[0], origin[1], text);
+  if (edges.at(0) != last.at(0) || edges.at(4) != last.at(4))
+    text += fmt::format("; at the end {:.6g} x {:.6g}", last.at(0), last.at(4));
+  return fmt::format("{:.6g} x {:.6g} from ({:.6g}, {:.6g}); {}", edges.at(0), edges.at(4), origin[0], origin[1], text);
 }
 
 /// Returns text such as ", every 0.5"
@@ -116,8 +117,8 @@ std::string described(hid_t file) {
     text += info_line("state hash", hash + ", of the last sample");
   text += info_line("observables", observables_line(file));
   if (samples > 0 && !extents_of(file, "/observables/scale/value").empty())
-    text += info_line(
-        "radii", fmt::format("{} times those in the file", read_rows(file, "/observables/scale/value", samples - 1, 1).at(0)));
+    text += info_line("radii", fmt::format("{:.6g} times those in the file",
+                                           read_rows(file, "/observables/scale/value", samples - 1, 1).at(0)));
   const std::vector<hsize_t> events = extents_of(file, "/events/time");
   if (!events.empty()) text += info_line("events", fmt::format("{} in /events", counted(events[0], "collision")));
   return text;

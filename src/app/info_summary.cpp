@@ -23,8 +23,17 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string text_of(const Json& value) {
+  if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
   return value.is_string() ? value.get<std::string>() : value.is_null() ? "none" : value.dump();
 }
+
+/// Returns a number with its standard error, if it has one.
+std::string text_of(const Json& value, const Json& error) {
+  return value.is_null() || error.is_null() ? text_of(value) : with_error(value.get<double>(), error.get<double>());
+}
+
+/// Returns a packing fraction as the summary of a run has it on the terminal.
+std::string packing_fraction(const Json& json) { return fmt::format("{:.4g}", json.at("packing_fraction").get<double>()); }
 
 /// Returns the pressures on all walls that have one: "left 2.5, right 2.5".
 std::string wall_pressures(const Json& walls) {
@@ -97,8 +106,7 @@ std::string lines_of_observables(const Json& observables) {
     std::string line;
     for (const auto& [key, entry] : measured.items()) {
       if (!entry.is_object() || !entry.contains("value") || entry.at("value").is_null()) continue;
-      line += fmt::format("{}{} {}", line.empty() ? "" : ", ", key, text_of(entry.at("value")));
-      if (!entry.at("error").is_null()) line += fmt::format(" (error {})", text_of(entry.at("error")));
+      line += fmt::format("{}{} {}", line.empty() ? "" : ", ", key, text_of(entry.at("value"), entry.at("error")));
     }
     if (measured.contains("tables"))
       for (const auto& [key, table] : measured.at("tables").items())
@@ -119,8 +127,7 @@ std::string described(const Json& json) {
   text += engine_line(text_of(json.at("engine")), number("dt"), number("stiffness"));
   if (json.contains("cores")) text += info_line("threads", threads_line(json.at("cores")));
   text += info_line("effects", effects_line(json.at("effects")));
-  text +=
-      info_line("disks", fmt::format("{}, packing fraction {}", text_of(json.at("disks")), text_of(json.at("packing_fraction"))));
+  text += info_line("disks", fmt::format("{}, packing fraction {}", text_of(json.at("disks")), packing_fraction(json)));
   text += info_line("time", fmt::format("{}, {} samples, stopped by {}", text_of(json.at("time")), text_of(json.at("samples")),
                                         text_of(json.at("stopped"))));
   if (json.contains("state_hash")) text += info_line("state hash", text_of(json.at("state_hash")));
@@ -130,7 +137,7 @@ std::string described(const Json& json) {
   text += lines_of_effects(json);
   if (json.contains("observables")) text += lines_of_observables(json.at("observables"));
   const Json& pressure = json.at("pressure");
-  text += info_line("Z", fmt::format("{}, standard error {}", text_of(pressure.at("Z")), text_of(pressure.at("Z_error"))));
+  text += info_line("Z", text_of(pressure.at("Z"), pressure.at("Z_error")));
   return text +
          info_line("overlap", fmt::format("at most {} of a contact distance", text_of(json.at("overlap").at("max_relative"))));
 }
@@ -139,8 +146,7 @@ std::string described_comparison(const Json& json) {
   std::string text = info_line("written by", fmt::format("carom {} ({})", text_of(json.at("carom").at("version")),
                                                          text_of(json.at("carom").at("commit"))));
   text += info_line("scene", text_of(json.at("scene")));
-  text +=
-      info_line("disks", fmt::format("{}, packing fraction {}", text_of(json.at("disks")), text_of(json.at("packing_fraction"))));
+  text += info_line("disks", fmt::format("{}, packing fraction {}", text_of(json.at("disks")), packing_fraction(json)));
   text += info_line("runs", fmt::format("{}, {} starts, {} time steps", json.at("runs").size(),
                                         json.at("plan").at("seeds").size(), json.at("plan").at("dt").size()));
   for (const Json& sentence : json.at("sentences")) text += info_line("answer", text_of(sentence));

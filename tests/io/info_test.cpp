@@ -93,6 +93,18 @@ TEST_F(Info, DescribesASummary) {
                                                           HasSubstr("1000 pair, 20 wall"), HasSubstr("stopped by time")));
 }
 
+TEST_F(Info, PrintsNumbersOfASummaryAsARunDoes) {
+  RunReport report = hand_made_report(scene_);
+  report.packing_fraction = 0.30000000000000004;
+  report.Z = 2.0589395739024647, report.Z_error = 0.008453176660596298;
+  report.time = 1.0 / 3.0;
+  RunWriter writer(RunDirectory(temporary_.path() / "other", false), scene_, hand_made_disks(scene_), provenance());
+  writer.finish(report);
+  EXPECT_THAT(describe_file(temporary_.path() / "other" / "summary.json"),
+              AllOf(HasSubstr("packing fraction 0.3\n"), HasSubstr("Z           2.0589 ± 0.0085\n"),
+                    HasSubstr("time        0.333333, ")));
+}
+
 TEST_F(Info, DescribesARunDirectoryFileByFile) {
   EXPECT_THAT(describe_file(out_), AllOf(HasSubstr("trajectory.h5md: "), HasSubstr("trajectory.xyz: "),
                                          HasSubstr("samples.csv: "), HasSubstr("summary.json: ")));
