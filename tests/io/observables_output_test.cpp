@@ -92,7 +92,7 @@ TEST(ObservablesOutput, RunWritesThemBesideSamplesAndIntoTheFileOfSamples) {
   ASSERT_TRUE(file.opens());
   EXPECT_EQ(file.doubles("measurements/flights/table_free_times/middle"), (std::vector<double>{0.25, 0.75}));
   EXPECT_TRUE(std::isnan(file.doubles("measurements/flights/table_free_times/density")[1]));
-  EXPECT_THAT(describe_file(directory.path() / "run"), HasSubstr("flights: mean 0.5 (error 0.25), observe_free_times.csv"));
+  EXPECT_THAT(describe_file(directory.path() / "run"), HasSubstr("flights: mean 0.50 ± 0.25, observe_free_times.csv"));
   EXPECT_NO_THROW(RunDirectory(directory.path() / "run", true)) << "--force replaces tables too";
   EXPECT_FALSE(std::filesystem::exists(directory.path() / "run" / "observe_free_times.csv"));
 }
