@@ -108,7 +108,7 @@ class Walls {
       const Real parting = rebound<Real>(closing, restitution, pressing, radius);
       if (restitution < 1 && closing > 0 && !(pressing > 0)) small = smallness<Real>(closing, radius);
       using std::sqrt;
-      if (restitution < 1 && pressing > 0 && parting == 0) rest = sqrt(Real(0x1p-39) * radius / pressing);
+      if (restitution < 1 && pressing > 0 && parting == 0 && s.vibration == 0) rest = sqrt(Real(0x1p-39) * radius / pressing);
       after = (surface - expansion) - parting;
       if (s.mass > 0) {
         // Shares of the change of the relative velocity, by mass.

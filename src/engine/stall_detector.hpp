@@ -43,7 +43,8 @@ class StallDetector {
   }
   /// The number of record_rest() since time last advanced.
   [[nodiscard]] std::uint64_t rests() const { return rests_; }
-  /// Begins an epoch, from which times count.
+  /// Begins an epoch, from which times count. Rests before it do not: disks that rest now and then, among many others, never have
+  /// as many events in an epoch as patience takes.
   void begin_epoch() { resting_until_ = 0.0, rests_ = 0; }
   /// Takes the length of the epoch, whose last ulps of time are one instant: coordinates are rounded by as much.
   void set_epoch_length(double length) { instant_ = dissipates_ && length < infinity<double> ? 0x1p-50 * length : 0.0; }

@@ -77,22 +77,31 @@ struct LaggedColumn {
   return lags;
 }
 
-/// Notes where all pairs of states of a lag lie at the same few moments between two redraws of [brownian], which come at equal
-/// steps: at lags of few redraws their mean is not that over time.
+/// Returns at how many moments between two redraws, `rate` of which come at equal steps in a unit of time, the pairs of states of
+/// a lag lie; 0 for sixteen or more, whose mean is that over time to a hundredth.
+inline int moments_between_redraws(double step, double rate) {
+  constexpr int many = 16;
+  for (int moments = 1; moments < many; ++moments) {
+    const double redraws = moments * static_cast<double>(LaggedStates::apart) * step * rate;
+    if (std::abs(redraws - std::nearbyint(redraws)) <= 1e-9 * redraws) return moments;
+  }
+  return 0;
+}
+
+/// Notes where all pairs of states of a lag lie at the same few moments between two redraws of [brownian]: at lags of few redraws
+/// their mean is not that over time.
 inline void note_moments(Measurement& found, const ObservedRun& run, double step) {
   const auto& brownian = run.scene.effects.brownian;
-  if (!brownian || !(brownian->rate > 0.0)) return;
-  constexpr int many = 16;  // moments, whose mean is that over time to some 1 / many^2
-  for (int moments = 1; moments < many; ++moments) {
-    const double redraws = moments * static_cast<double>(LaggedStates::apart) * step * brownian->rate;
-    if (std::abs(redraws - std::nearbyint(redraws)) > 1e-9 * redraws) continue;
-    if (!found.note.empty()) found.note += "; ";
-    found.note += fmt::format(
-        "at lags of few redraws of [brownian] this is no mean over time: states lie at {} between two of them; take every = "
-        "{:.4g}",
-        moments == 1 ? "one moment" : fmt::format("{} moments", moments), 0.93 * step);
-    return;
-  }
+  constexpr double few = 8.0;  // redraws
+  if (!brownian || !(brownian->rate > 0.0) || step * brownian->rate > few) return;
+  const int moments = moments_between_redraws(step, brownian->rate);
+  if (moments == 0) return;
+  double better = 0.93 * step;
+  while (moments_between_redraws(better, brownian->rate) > 0) better *= 0.99;
+  if (!found.note.empty()) found.note += "; ";
+  found.note += fmt::format(
+      "at lags of few redraws of [brownian] this is no mean over time: states lie at {} between two of them; take every = {:.4g}",
+      moments == 1 ? "one moment" : fmt::format("{} moments", moments), better);
 }
 
 /// The disks that are followed, by species, and where they were.

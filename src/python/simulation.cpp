@@ -196,13 +196,19 @@ struct PlayerRecording {
 };
 
 /// The scene as it is now: its text is not that which was read. Where disks have grown, or walls have come nearer, so far that
-/// the scene's start has no room for them, it lists the disks as they are now.
+/// the scene's start has no room for them, it lists the disks as they are now; where walls would close the box before its end,
+/// the end is the start.
 Scene scene_now(const Simulation& simulation) {
   Scene scene = simulation.scene();
   try {
     check(scene);
   } catch (const SceneError&) {
     list_disks(scene, simulation.state());
+  }
+  try {
+    check(scene);
+  } catch (const SceneError&) {
+    if (scene.run.time) scene.run.time = 0.0;
   }
   scene.text = resolved_toml(scene);
   scene.overrides.clear();

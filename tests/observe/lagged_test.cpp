@@ -253,8 +253,8 @@ TEST(SlowObservedLags, OfFreeFlightAreThoseOfTheMicrocanonicalGas) {
 TEST(ObservedLags, AreNotedWhereTheyKeepStepWithBrownianRedraws) {
   const std::vector<std::string> all = {"mean_square_displacement", "intermediate_scattering", "overlap", "non_gaussian",
                                         "van_hove"};
-  const auto note_at = [&](double every, const std::string& name) {
-    std::string lines = "[brownian]\ntemperature = 1.0\nrate = 0.5\n[observe]\n";
+  const auto note_at = [&](double every, const std::string& name, double rate = 0.5) {
+    std::string lines = fmt::format("[brownian]\ntemperature = 1.0\nrate = {}\n[observe]\n", rate);
     for (const std::string& one : all) lines += fmt::format("{} = {{ every = {} }}\n", one, every);
     std::string scene = periodic_mixture("");
     scene.replace(scene.find("[observe]"), 9, lines);
@@ -264,6 +264,8 @@ TEST(ObservedLags, AreNotedWhereTheyKeepStepWithBrownianRedraws) {
     EXPECT_THAT(note_at(0.25, name), HasSubstr("states lie at one moment between two of them; take every = 0.2325")) << name;
     EXPECT_THAT(note_at(0.3125, name), HasSubstr("states lie at 4 moments")) << name;
     EXPECT_THAT(note_at(0.2325, name), Not(HasSubstr("moment"))) << name;
+    EXPECT_THAT(note_at(1.0, name, 5.0), HasSubstr("take every = 0.9207")) << name << ": 0.93 has 5 moments";
+    EXPECT_THAT(note_at(1.0, name, 50.0), Not(HasSubstr("moment"))) << name << ": no lag is of few redraws";
   }
 }
 

@@ -10,7 +10,7 @@ import weakref
 
 import numpy as np
 import pytest
-from conftest import ROOT
+from conftest import GAS, ROOT
 
 import carom
 
@@ -214,3 +214,17 @@ def test_a_change_that_a_disk_blocks_is_told() -> None:
     assert sim.time == 1.0
     with pytest.warns(carom.StoppedEarly):
         assert carom.run(scene).stopped == "blocked"
+
+
+def test_the_scene_of_a_wall_that_would_close_the_box_can_begin_a_simulation() -> None:
+    box = {**GAS["box"], "boundary": "walls"}
+    sim = carom.Simulation({**GAS, "box": box, "run": {**GAS["run"], "time": 1000.0}})
+    sim.run_until(1.0)
+    sim.set("walls.right.velocity", -0.125)
+    now = sim.scene
+    assert now.set({"run.seed": 4}).to_dict()["run"]["time"] == 0.0  # how long the wall is to move, the program says
+    assert pickle.loads(pickle.dumps(now)) == now
+    twin = carom.Simulation(now, state=sim.state)
+    sim.run_until(2.0)
+    twin.run_until(1.0)
+    assert np.array_equal(twin.positions, sim.positions)
