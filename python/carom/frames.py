@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import math
 from os import PathLike
 from os.path import splitext
@@ -270,27 +271,11 @@ class Frames:
         )
 
     def _part(self, k: slice) -> Frames:
-        def part(array: Any) -> Any:
-            return None if array is None else array[k]
-
-        return Frames(
-            time=part(self.time),
-            positions=part(self._positions),
-            velocities=part(self._velocities),
-            images=part(self._images),
-            spins=part(self._spins),
-            walls=part(self._walls),
-            scale=part(self.scale),
-            shear_displacement=part(self._shear_displacement),
-            collisions=part(self.collisions),
-            virial=part(self.virial),
-            radii=self.radii,
-            masses=self.masses,
-            species=self.species,
-            scene=self.scene,
-            state_hash=self.state_hash,
-            interrupted=self.interrupted,
-        )
+        part = copy.copy(self)
+        for name in ("time", "scale", "collisions", "virial", "_positions", "_velocities", "_images", "_spins", "_walls", "_shear_displacement"):
+            array = getattr(self, name)
+            setattr(part, name, None if array is None else array[k])
+        return part
 
     @property
     def unwrapped(self) -> Floats:

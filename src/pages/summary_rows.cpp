@@ -146,19 +146,12 @@ std::string what_temperature_counts(const Scene* scene) {
 /// Returns what Z counts: between walls collisions of disks alone, and then also what the walls feel.
 std::string where_Z_is_from(const RunReport& report, const Scene* scene) {
   const std::string from = "from momentum transfer";
-  if (scene == nullptr || scene->effects.circle || (scene->box.periodic(0) && scene->box.periodic(1))) return from;
   double pressures = 0.0;
-  int walls = 0;
-  const Eigen::Vector2d lengths = scene->box.lengths();
-  for (std::size_t side = 0; side < 4; ++side) {
-    const int axis = axis_of_wall(side);
-    if (scene->box.periodic(axis)) continue;
-    ++walls;
-    pressures += report.totals.wall_impulse[side] / (report.time * lengths[1 - axis]);
-  }
-  const double area_per_energy = scene->box.area() / (static_cast<double>(report.disks) * report.temperature_mean);
-  const double on_walls = pressures / walls * area_per_energy;
-  return std::isfinite(on_walls) ? fmt::format("{} between disks; on the walls it is {:.5g}", from, on_walls) : from;
+  for (const WallReport& wall : report.of_effects.walls) pressures += wall.pressure.value_or(NAN);
+  if (scene == nullptr || report.of_effects.walls.empty() || !std::isfinite(pressures)) return from;
+  const double pressure = pressures / static_cast<double>(report.of_effects.walls.size());
+  const double on_walls = pressure * scene->box.area() / (static_cast<double>(report.disks) * report.temperature_mean);
+  return fmt::format("{} between disks; on the walls it is {:.5g}", from, on_walls);
 }
 
 void append(SummaryRows& rows, SummaryRows more) {

@@ -11,6 +11,7 @@
 #include "runner/run_threads.hpp"
 #include "runner/runner.hpp"
 #include "simulation/start.hpp"
+#include "terminal/run_estimate.hpp"
 #include "text/numbers.hpp"
 
 #include <nanobind/stl/optional.h>
@@ -49,15 +50,6 @@ bool may_go_on(const nb::object& report, double fraction) {
   return report.is_none() || !report(fraction).is(nb::handle(Py_False));
 }
 
-/// Returns the fraction of a run that is done, 0 while it equilibrates.
-double fraction_done(const Run& run, const Progress& progress) {
-  if (progress.equilibrating) return 0.0;
-  const double of_time = run.time.value_or(0.0) > 0.0 ? progress.time / *run.time : 0.0;
-  const double pairs = static_cast<double>(progress.totals.pair);
-  const double of_collisions = run.collisions.value_or(0) > 0 ? pairs / static_cast<double>(*run.collisions) : 0.0;
-  return std::min(1.0, std::max(of_time, of_collisions));
-}
-
 [[noreturn]] void throw_interrupt() {
   PyErr_SetNone(PyExc_KeyboardInterrupt);
   throw nb::python_error();
@@ -65,11 +57,11 @@ double fraction_done(const Run& run, const Progress& progress) {
 
 class PythonRun {
  public:
-  /// `run` has the end that the run is to reach.
-  PythonRun(Simulation& simulation, const Run& run, const RunDirectory* directory, Provenance provenance, const RunWishes& wishes,
-            const Checkpoint* from = nullptr)
+  /// `scene` has the end that the run is to reach.
+  PythonRun(Simulation& simulation, const Scene& scene, const RunDirectory* directory, Provenance provenance,
+            const RunWishes& wishes, const Checkpoint* from = nullptr)
       : simulation_(simulation),
-        run_(run),
+        scene_(scene),
         wishes_(wishes),
         runner_(simulation, directory, std::move(provenance),
                 {.checkpoint_every = wishes.checkpoint_every,
@@ -136,7 +128,8 @@ class PythonRun {
     const nb::gil_scoped_acquire locked;
     try {
       if (PyErr_CheckSignals() != 0) throw nb::python_error();
-      if (!python::may_go_on(wishes_.progress, fraction_done(run_, progress))) interrupted_ = true;
+      const double done = progress.equilibrating ? 0.0 : cli::fraction_done(scene_, progress);
+      if (!python::may_go_on(wishes_.progress, done)) interrupted_ = true;
     } catch (nb::python_error& error) {
       if (!error.matches(PyExc_KeyboardInterrupt)) keep(std::current_exception());
       interrupted_ = true;
@@ -147,7 +140,7 @@ class PythonRun {
   }
 
   Simulation& simulation_;
-  const Run& run_;
+  const Scene& scene_;
   const RunWishes& wishes_;
   const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   Runner runner_;
@@ -203,7 +196,7 @@ AnyTuple run(const Scene& scene, const std::string& engine, const std::optional<
                               .time_step = simulation.time_step(),
                               .stiffness = simulation.stiffness()};
   try {
-    return PythonRun(simulation, scene.run, directory ? &*directory : nullptr, provenance, wishes)();
+    return PythonRun(simulation, scene, directory ? &*directory : nullptr, provenance, wishes)();
   } catch (...) {
     if (directory) directory->discard_if_empty();
     throw;
@@ -229,7 +222,7 @@ AnyTuple resume(const std::string& path, std::optional<double> time, std::option
   with_its_own.report = wishes.report || facts.report;
   with_its_own.verify_every = facts.verify;
   if (!wishes.checkpoint_every && !facts.checkpoint_every.empty()) with_its_own.checkpoint_every = facts.checkpoint_every;
-  return PythonRun(simulation, resumed.scene.run, &resumed.directory, resumed.provenance(), with_its_own, &resumed.from)();
+  return PythonRun(simulation, resumed.scene, &resumed.directory, resumed.provenance(), with_its_own, &resumed.from)();
 }
 
 }  // namespace

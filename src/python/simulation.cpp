@@ -204,11 +204,11 @@ Scene scene_now(const Simulation& simulation) {
     check(scene);
   } catch (const SceneError&) {
     list_disks(scene, simulation.state());
-  }
-  try {
-    check(scene);
-  } catch (const SceneError&) {
-    if (scene.run.time) scene.run.time = 0.0;
+    try {
+      check(scene);
+    } catch (const SceneError&) {
+      if (scene.run.time) scene.run.time = 0.0;
+    }
   }
   scene.text = resolved_toml(scene);
   scene.overrides.clear();

@@ -4,8 +4,6 @@
 
 namespace carom::cli {
 
-namespace {
-
 double fraction_done(const Scene& scene, const Progress& progress) {
   const auto pairs = static_cast<double>(progress.totals.pair);
   double fraction = 0.0;
@@ -25,8 +23,6 @@ double fraction_done(const Scene& scene, const Progress& progress) {
   }
   return std::clamp(fraction, 0.0, 1.0);
 }
-
-}  // namespace
 
 RunEstimate::Estimate RunEstimate::at(const Progress& progress, Clock::time_point now) {
   if (progress.equilibrating != equilibrating_) {

@@ -9,6 +9,9 @@
 
 namespace carom::cli {
 
+/// Returns the fraction, 0 to 1, of the equilibration or of the measured run that is done.
+[[nodiscard]] double fraction_done(const Scene& scene, const Progress& progress);
+
 class RunEstimate {
  public:
   using Clock = std::chrono::steady_clock;

@@ -3,6 +3,7 @@
 #include "app/terminal_summary.hpp"
 
 #include "io/hand_made_run.hpp"
+#include "observe/effects_report.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -114,14 +115,16 @@ TEST_F(TerminalSummary, PressureHasTheErrorOfZInProportion) {
 
 TEST_F(TerminalSummary, SaysWhatTheWallsFeelBesideZOfDisksAlone) {
   report_.Z_error = 0.1;
-  report_.totals.wall_impulse = {30.0, 34.0, 31.0, 33.0};
   report_.disks = 2;
   scene_.box.boundary = {Boundary::walls, Boundary::walls};
+  report_.totals.wall_impulse = {30.0, 34.0, 31.0, 33.0};
+  report_.of_effects = effects_report(scene_, Disks{}, report_.totals, {.time = report_.time});
   const Eigen::Vector2d lengths = scene_.box.lengths();
   const double pressure = (64.0 / lengths.y() + 64.0 / lengths.x()) / (2.0 * 2.0 * report_.time);
   const std::string on_walls = fmt::format("{:.5g}", pressure * lengths.prod() / (2.0 * report_.temperature_mean));
   EXPECT_THAT(text(), HasSubstr("from momentum transfer between disks; on the walls it is " + on_walls + "\n"));
   scene_.box.boundary = {Boundary::periodic, Boundary::periodic};
+  report_.of_effects = {};
   EXPECT_THAT(text(), HasSubstr("from momentum transfer\n"));
 }
 
